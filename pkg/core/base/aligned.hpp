@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace softgrain {
+
+/// Allocates on 64-byte boundaries, as Lanes8 asks.
+template <class T> struct AlignedAllocator {
+    using value_type = T;
+    AlignedAllocator() = default;
+    template <class U> AlignedAllocator(const AlignedAllocator<U>&) { }
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
+    template <class U> bool operator!=(const AlignedAllocator<U>&) const { return false; }
+};
+
+using AlignedVector = std::vector<double, AlignedAllocator<double>>;
+
+} // namespace softgrain

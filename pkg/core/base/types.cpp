@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/types.hpp"
+
+#include <sstream>
+
+namespace softgrain {
+
+std::string shown(double value)
+{
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+} // namespace softgrain

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/narrow_phase.hpp"
+
+#include "contact/polyline.hpp"
+
+#include <algorithm>
+
+namespace softgrain {
+namespace {
+
+    /// Distance that neighbour lists look ahead of the reach [size of the smaller body].
+    constexpr double skin = 0.1;
+
+    /// Forces of the last step go to the same points; both lists are in the same order.
+    template <int Dim>
+    void carry_forces(const std::vector<ContactPoint<Dim>>& old, std::vector<ContactPoint<Dim>>& fresh)
+    {
+        auto before = old.begin();
+        for (auto& contact : fresh) {
+            const auto key = [](const ContactPoint<Dim>& c) { return std::make_pair(c.on_second, c.point); };
+            while (before != old.end() && key(*before) < key(contact))
+                ++before;
+            if (before != old.end() && key(*before) == key(contact)) contact.force = before->force;
+        }
+    }
+
+} // namespace
+
+template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt)
+{
+    return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size;
+}
+
+template <int Dim>
+void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& other, bool corners_only, double margin,
+                               std::vector<Candidate>& found) const
+{
+    found.clear();
+    const Vec<Dim> lo = other.min.array() - margin, hi = other.max.array() + margin;
+    for (int p = 0; p < mine.count; ++p) {
+        if (corners_only && !mine.corner[p]) continue;
+        const Vec<Dim> x = mine.x(p);
+        if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
+        const Projection at = project(other, x, nearest_vertex(other, x));
+        if (at.gap < margin) found.push_back({ p, at.segment });
+    }
+}
+
+template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
+{
+    const bool second_smaller = second.size < first.size;
+    const Surface<Dim>&small = second_smaller ? second : first, &large = second_smaller ? first : second;
+    const double near = reach(small, large.speed, dt);
+    if (first.travel + second.travel >= valid_until_) {
+        const double ahead = skin * small.size;
+        search(small, large, false, near + ahead, near_[0]);
+        search(large, small, true, near + ahead, near_[1]);
+        valid_until_ = first.travel + second.travel + ahead;
+    }
+    std::vector<ContactPoint<Dim>> fresh;
+    for (bool on_second : { false, true }) {
+        const bool mine_small = on_second == second_smaller;
+        const Surface<Dim>&mine = on_second ? second : first, &other = on_second ? first : second;
+        for (Candidate& candidate : near_[mine_small ? 0 : 1]) {
+            const Projection at = project(other, mine.x(candidate.point), candidate.face);
+            candidate.face = at.segment;
+            if (at.gap >= near) continue;
+            fresh.push_back({ candidate.point, on_second, at.segment,
+                              { at.segment, (at.segment + 1) % other.count }, { 1 - at.t, at.t }, at.normal, at.gap });
+        }
+    }
+    carry_forces(points, fresh);
+    points.swap(fresh);
+}
+
+template <int Dim>
+void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt)
+{
+    const double near = reach(grain, plane_speed, dt);
+    std::vector<ContactPoint<Dim>> fresh;
+    const double closest = side > 0 ? grain.min[axis] - position : position - grain.max[axis];
+    near_ = closest < near + skin * grain.size;
+    if (closest < near)
+        for (int p = 0; p < grain.count; ++p) {
+            const double gap = side * (grain.x(p)[axis] - position);
+            if (gap < near) fresh.push_back({ p, false, 0, {}, {}, side * Vec<Dim>::Unit(axis), gap });
+        }
+    carry_forces(points, fresh);
+    points.swap(fresh);
+}
+
+template double reach<2>(const Surface<2>&, double, double);
+template class PairContacts<2>;
+template class PlaneContacts<2>;
+
+} // namespace softgrain

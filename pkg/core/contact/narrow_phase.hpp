@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact points of two bodies: surface points of one against the boundary of the other.
+//
+//   PairContacts     a grain against a grain or a rigid polygon
+//   PlaneContacts    a grain against the half-space behind a rigid plane
+#pragma once
+
+#include "contact/surface.hpp"
+
+#include <array>
+
+namespace softgrain {
+
+/// One surface point against one face. Impulses act along +force on the point, against it on the face.
+template <int Dim> struct ContactPoint {
+    int point;        ///< surface point
+    bool on_second;   ///< the point belongs to the pair's second body, the face to the first
+    int face;         ///< segment (2D) of the other body
+    std::array<int, Dim> vertex;    ///< of the face
+    std::array<double, Dim> weight; ///< of the vertices at the foot of the point
+    Vec<Dim> normal;  ///< from the face to the point, unit
+    double gap;       ///< [m], negative: penetration
+    Vec<Dim> force = Vec<Dim>::Zero(); ///< [N] (N/m in 2D) of the last step: where the solver starts
+};
+
+/// How far ahead contacts are looked for: [m], beyond what two bodies can close in one step.
+template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt);
+
+template <int Dim> class PairContacts {
+public:
+    /// Contact points with a gap below `reach`, in a fixed order; forces carry over from the last call.
+    /// Points of the smaller body meet the larger one's faces; sharp corners of the larger meet the smaller's.
+    void update(const Surface<Dim>& first, const Surface<Dim>& second, double dt);
+
+    std::vector<ContactPoint<Dim>> points;
+    /// Points of the one are so near the other that the pair is worth keeping.
+    bool near() const { return !near_[0].empty() || !near_[1].empty(); }
+
+private:
+    struct Candidate {
+        int point, face;
+    };
+    void search(const Surface<Dim>& mine, const Surface<Dim>& other, bool corners_only, double margin,
+                std::vector<Candidate>& found) const;
+    std::array<std::vector<Candidate>, 2> near_; ///< points of the smaller body, corners of the larger
+    double valid_until_ = -1; ///< total travel of both bodies up to which `near_` is complete [m]
+};
+
+template <int Dim> class PlaneContacts {
+public:
+    /// Contact points with the plane x[axis] = position, grains on the `side` (+1 or -1) of it.
+    void update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt);
+
+    std::vector<ContactPoint<Dim>> points;
+    bool near() const { return near_; }
+
+private:
+    bool near_ = false;
+};
+
+extern template class PairContacts<2>;
+extern template class PlaneContacts<2>;
+
+} // namespace softgrain

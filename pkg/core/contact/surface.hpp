@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "grid/discretisation.hpp"
+
+#include <vector>
+
+namespace softgrain {
+
+/// The boundary of a body as contact sees it, in world coordinates. A soft grain fills it every step from its
+/// grid; a rigid polygon from its motion.
+template <int Dim> struct Surface {
+    int count = 0;
+    std::vector<double> position;        ///< [point][Dim] [m], counter-clockwise in 2D
+    std::vector<double> velocity;        ///< [point][Dim] [m/s]; the contact solver works on it
+    std::vector<double> velocity_before; ///< [point][Dim] [m/s], at the start of the step
+    std::vector<double> impulse;         ///< [point][Dim] [N s], what contact gave in this step
+    std::vector<char> corner;            ///< [point], see BoundaryPoint
+    Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
+    double speed = 0;                    ///< largest speed of a point [m/s]
+    double travel = 0;                   ///< bound on the path of any point since the start [m]
+    double size = 0;                     ///< radius, or half the least width [m]
+    double mobility = 0;                 ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
+    const Discretisation<Dim>* mesh = nullptr; ///< its Delassus operator; none for rigid bodies
+
+    void resize(int points)
+    {
+        count = points;
+        for (auto* field : { &position, &velocity, &velocity_before, &impulse })
+            field->assign(size_t(Dim) * points, 0);
+        corner.assign(points, 0);
+    }
+    Eigen::Map<const Vec<Dim>> x(int point) const { return Eigen::Map<const Vec<Dim>>(&position[size_t(Dim) * point]); }
+    Eigen::Map<Vec<Dim>> v(int point) { return Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * point]); }
+
+    /// Bounding box of the points as they are.
+    void bound()
+    {
+        if (count == 0) return;
+        min = max = x(0);
+        for (int p = 1; p < count; ++p) {
+            min = min.cwiseMin(x(p));
+            max = max.cwiseMax(x(p));
+        }
+    }
+};
+
+} // namespace softgrain

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A grain's material points, background grid and surface, all in the reference configuration and in units of
+// the grain's radius (of the equal-volume disc for other shapes). Grains of one shape and resolution share it.
+#pragma once
+
+#include "grain/outline.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace softgrain {
+
+/// How a grain is discretised. Defaults: the accuracy study of doc/theory.md.
+struct Resolution {
+    int points = 276;               ///< material points wished for; the nearest layout is taken
+    double surface_spacing = 0.9;   ///< largest distance of surface points [cell widths]
+    double node_threshold = 0.02;   ///< nodes with less mass follow their neighbours [mass of a full cell]
+    double merge_threshold = 0.35;  ///< cells filled less join a neighbour [volume of a cell]
+    std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
+};
+
+template <int Dim> class Discretisation {
+public:
+    static constexpr int stencil = power(3, Dim);
+
+    Discretisation(const Outline<Dim>& outline, const Resolution& resolution);
+
+    double cell_width; ///< h [radius]
+
+    // Nodes: masters first, then slaves, which extrapolate masters linearly (so rigid motions and uniform
+    // strains are exact) and hand their forces and masses to them.
+    int master_count;
+    std::vector<Vec<Dim>> node_position;
+    std::vector<double> node_mass; ///< lumped, masters only; sums to `moments.volume` (unit density)
+    std::vector<double> mean_gradient; ///< [master][Dim], mean over the grain of the shape functions' gradients
+    struct Link {
+        int slave, master;
+        double weight;
+    };
+    std::vector<Link> links;
+    int node_count() const { return int(node_position.size()); }
+
+    // Material points, ordered by region and by block. A block's points share their nodes. A region is the
+    // set of points that share one volume change (mean dilatation).
+    std::vector<Vec<Dim>> point_position;
+    std::vector<double> point_volume;
+    std::vector<double> shape;    ///< [point][stencil], shape functions
+    std::vector<double> gradient; ///< [point][stencil][Dim], of the shape functions [1 / radius]
+    struct Block {
+        int first_point, point_count;
+        std::array<std::int32_t, stencil> node;
+    };
+    std::vector<Block> blocks;
+    struct Region {
+        int first_block, block_count;
+        double volume;
+    };
+    std::vector<Region> regions;
+    int point_count() const { return int(point_position.size()); }
+
+    // Surface points.
+    std::vector<BoundaryPoint<Dim>> surface;
+    struct SurfaceStencil {
+        std::array<std::int32_t, stencil> node;
+        std::array<double, stencil> weight;
+    };
+    std::vector<SurfaceStencil> surface_stencil;
+    int surface_count() const { return int(surface.size()); }
+
+    /// Delassus operator of the surface: velocity of surface point s due to a unit impulse on surface point
+    /// `column`, per unit density and radius^Dim; rows in CSR form, isotropic in space.
+    std::vector<int> delassus_row, delassus_column;
+    std::vector<double> delassus_value;
+    double delassus(int row, int column) const;
+
+    Moments<Dim> moments; ///< of the material points; equal to the outline's to round-off
+
+    /// Number of material points with this many cells across the grain's longest side.
+    static int points_with(const Outline<Dim>& outline, const Resolution& resolution, int cells_across);
+
+    /// Node values interpolated at a surface point; `field` is [node][Dim].
+    Vec<Dim> at_surface(int point, const double* field) const;
+
+private:
+    struct Cells;
+    void place_points(const Cells& cells);
+    void place_surface(const Outline<Dim>& outline, const Cells& cells, double spacing);
+    void bind_slaves(double threshold);
+    void average_gradients();
+    void build_delassus();
+};
+
+extern template class Discretisation<2>;
+
+} // namespace softgrain

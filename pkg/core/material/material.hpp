@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A hyperelastic law gives its energy density per reference volume as
+//
+//     W = U(J) + w(F),        P = U'(J) cof F + dw/dF
+//
+// U is the part that makes a nearly incompressible grain stiff. The grid evaluates it with the mean J of a
+// region (mean dilatation), w at every material point: that is the cure of volumetric locking. A law is a
+// struct like NeoHookean below; all its functions are pure and work on lanes. To add one: write its file,
+// then name it once in step/kernels.cpp.
+//
+//     name              what messages and files call it
+//     parameters        names of its constants, in the order of the array p [Pa]
+//     volumetric_energy U(J) [J/m3]
+//     volumetric_slope  U'(J) [Pa]
+//     energy            w(F) [J/m3]
+//     stress            dw/dF [Pa]
+//     wave_modulus      lambda + 2 mu of the small-strain limit [Pa]
+//     complaint         why the constants give an unstable energy, or ""
+#pragma once
+
+#include "base/tensor.hpp"
+#include "base/types.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>

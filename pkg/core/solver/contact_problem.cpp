@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "solver/contact_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softgrain {
+namespace {
+
+    /// Projection on the Coulomb cone { r : |r_t| <= mu r_n }.
+    template <int Dim> Vec<Dim> cone_projection(const Vec<Dim>& r, const Vec<Dim>& n, double mu)
+    {
+        const double normal = r.dot(n);
+        const Vec<Dim> tangential = r - normal * n;
+        const double size = tangential.norm();
+        if (size <= mu * normal) return r;
+        if (mu * size <= -normal) return Vec<Dim>::Zero();
+        const double kept = (normal + mu * size) / (1 + mu * mu);
+        return kept * n + (size > 0 ? mu * kept / size : 0) * tangential;
+    }
+
+} // namespace
+
+template <int Dim> double contact_residual(const std::vector<Contact<Dim>>& contacts)
+{
+    if (contacts.empty()) return 0;
+    double inertia = 0;
+    for (const auto& contact : contacts)
+        inertia += contact.inertia / double(contacts.size());
+    double error = 0, r2 = 0, u2 = 0, q2 = 0;
+    for (const auto& contact : contacts) {
+        const Vec<Dim>&n = contact.normal, &r = contact.impulse;
+        const Vec<Dim> u = inertia * (contact.relative(&Surface<Dim>::velocity) + contact.gap_speed * n);
+        const Vec<Dim> slide = u - u.dot(n) * n;
+        const Vec<Dim> target = r - u - contact.friction * slide.norm() * n;
+        error += (r - cone_projection(target, n, contact.friction)).squaredNorm();
+        r2 += r.squaredNorm();
+        u2 += u.squaredNorm();
+        q2 += (inertia * (contact.relative(&Surface<Dim>::velocity_before) + contact.gap_speed * n)).squaredNorm();
+    }
+    const double scale = std::sqrt(std::max({ r2, u2, q2 }));
+    return scale > 0 ? std::sqrt(error) / scale : 0;
+}
+
+template double contact_residual<2>(const std::vector<Contact<2>>&);
+
+} // namespace softgrain

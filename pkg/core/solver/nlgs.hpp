@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "solver/contact_problem.hpp"
+
+namespace softgrain {
+
+/// Non-linear Gauss-Seidel (Jean 1999): contact by contact the local law is solved exactly with the others held,
+/// until the impulses of a whole sweep change by less than the tolerance, relative to the largest of them.
+struct NonlinearGaussSeidel {
+    double tolerance = 1e-3;
+    int max_sweeps = 1000;
+
+    /// Starts from the contacts' impulses, leaves the solution there, and the velocities and impulses of the
+    /// surfaces to match. Returns the number of sweeps.
+    template <int Dim> int solve(std::vector<Contact<Dim>>& contacts) const;
+};
+
+extern template int NonlinearGaussSeidel::solve<2>(std::vector<Contact<2>>&) const;
+
+} // namespace softgrain

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace softgrain {
+namespace {
+
+    std::string whose(int id) { return "soft grain #" + std::to_string(id); }
+
+    template <int Dim> [[noreturn]] void report_inversion(const Grain<Dim>& grain)
+    {
+        const auto F = grain.deformation_gradients();
+        int worst = 0;
+        for (int p = 1; p < int(F.size()); ++p)
+            if (!(F[p].determinant() >= F[worst].determinant())) worst = p;
+        throw SimulationError(whose(grain.id) + ": material point " + std::to_string(worst) + " turned inside out (J = "
+                              + shown(F[worst].determinant())
+                              + "); likely causes: a time step over the stable limit, grains pressed beyond what their "
+                                "resolution can follow, or an impact near the wave speed.");
+    }
+
+} // namespace
+
+template <int Dim>
+Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
+    : grains_(std::move(grains))
+{
+    std::map<std::pair<const void*, const void*>, std::vector<Grain<Dim>*>> groups;
+    std::vector<std::pair<const void*, const void*>> order;
+    for (Grain<Dim>* grain : grains_) {
+        auto& group = groups[{ grain->mesh.get(), grain->law }];
+        if (group.empty()) order.push_back({ grain->mesh.get(), grain->law });
+        group.push_back(grain);
+    }
+    for (const auto& key : order) {
+        const auto& group = groups[key];
+        const int lanes = group.size() == 1 ? 1 : 8;
+        for (size_t first = 0; first < group.size(); first += lanes) {
+            std::vector<Grain<Dim>*> part(group.begin() + first, group.begin() + std::min(first + lanes, group.size()));
+            auto batch = std::make_unique<Batch<Dim>>(part[0]->mesh, *part[0]->law, lanes);
+            for (int lane = 0; lane < lanes; ++lane) {
+                // lanes without a grain of their own repeat the first, at rest
+                const bool spare = lane >= int(part.size());
+                Grain<Dim>& grain = *part[spare ? 0 : lane];
+                for (int k = 0; k < max_parameters; ++k)
+                    batch->parameters[size_t(k) * lanes + lane] = grain.parameters[k];
+                batch->inverse_inertia[lane] = 1 / (grain.density * grain.radius * grain.radius);
+                if (spare) continue;
+                grain.pull();
+                for (size_t i = 0; i < grain.displacement.size(); ++i) {
+                    batch->displacement[i * lanes + lane] = grain.displacement[i];
+                    batch->velocity[i * lanes + lane] = grain.velocity[i];
+                }
+            }
+            motion_kernels<Dim>().observe[batch->wide()](batch->data(), batch->sums.data()); // slaves
+            batches_.push_back(std::move(batch));
+            members_.push_back(part);
+        }
+    }
+    for (size_t b = 0; b < batches_.size(); ++b)
+        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+            members_[b][lane]->batch = batches_[b].get();
+            members_[b][lane]->lane = int(lane);
+        }
+}
+
+template <int Dim> Assembly<Dim>::~Assembly()
+{
+    for (Grain<Dim>* grain : grains_) {
+        grain->pull();
+        grain->batch = nullptr;
+    }
+}
+
+template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravity, int threads)
+{
+    const int count = int(batches_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int b = 0; b < count; ++b) {
+        Batch<Dim>& batch = *batches_[b];
+        const int lanes = batch.lanes;
+        batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
+        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+            members_[b][lane]->min_J = batch.per_lane[lane];
+            for (int d = 0; d < Dim; ++d)
+                batch.gain[d * lanes + lane] = dt * gravity[d] / members_[b][lane]->radius;
+        }
+        motion_kernels<Dim>().kick[batch.wide()](batch.data(), dt, batch.gain.data());
+        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+            Grain<Dim>& grain = *members_[b][lane];
+            Surface<Dim>& surface = grain.surface;
+            surface.velocity_before.swap(surface.velocity);
+            for (size_t i = 0; i < surface.velocity.size(); ++i)
+                surface.velocity[i] = grain.radius * batch.surface[i * lanes + lane];
+        }
+    }
+    for (Grain<Dim>* grain : grains_)
+        if (!(grain->min_J > 0)) {
+            grain->pull();
+            report_inversion(*grain);
+        }
+}
+
+template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
+{
+    const int count = int(batches_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int b = 0; b < count; ++b) {
+        Batch<Dim>& batch = *batches_[b];
+        const int lanes = batch.lanes;
+        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+            Grain<Dim>& grain = *members_[b][lane];
+            const double unit = grain.surface.mobility / grain.radius;
+            for (size_t i = 0; i < grain.surface.impulse.size(); ++i)
+                batch.surface[i * lanes + lane] = unit * grain.surface.impulse[i];
+        }
+        const auto& kernels = motion_kernels<Dim>();
+        kernels.push[batch.wide()](batch.data());
+        kernels.drift[batch.wide()](batch.data(), dt);
+        kernels.observe[batch.wide()](batch.data(), batch.sums.data());
+        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+            Grain<Dim>& grain = *members_[b][lane];
+            Surface<Dim>& surface = grain.surface;
+            double speed2 = 0;
+            Vec<Dim> lo = Vec<Dim>::Constant(1e300), hi = -lo;
+            for (int p = 0; p < surface.count; ++p) {
+                double v2 = 0;
+                for (int d = 0; d < Dim; ++d) {
+                    const size_t i = size_t(Dim) * p + d;
+                    const double x = grain.origin[d] + grain.radius * batch.surface[i * lanes + lane];
+                    surface.position[i] = x;
+                    lo[d] = std::min(lo[d], x);
+                    hi[d] = std::max(hi[d], x);
+                    v2 += surface.velocity[i] * surface.velocity[i];
+                }
+                speed2 = std::max(speed2, v2);
+            }
+            surface.min = lo;
+            surface.max = hi;
+            surface.speed = std::sqrt(speed2);
+            surface.travel += dt * surface.speed;
+            grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
+        }
+    }
+    for (const Grain<Dim>* grain : grains_)
+        if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite())
+            throw SimulationError(whose(grain->id) + ": its motion is no longer a finite number (kinetic energy "
+                                  + shown(grain->motion.kinetic)
+                                  + " J); likely causes: a time step over the stable limit or a body moved by hand.");
+}
+
+template <int Dim> void Assembly<Dim>::account(const std::vector<Contact<Dim>>& contacts, EnergyBalance& balance)
+{
+    for (const auto& contact : contacts) {
+        if (contact.impulse == Vec<Dim>::Zero()) continue;
+        const Vec<Dim> u = (contact.relative(&Surface<Dim>::velocity) + contact.relative(&Surface<Dim>::velocity_before)) / 2;
+        const double normal = contact.impulse.dot(contact.normal) * u.dot(contact.normal);
+        const double total = contact.impulse.dot(u);
+        balance.contact_dissipation -= normal;
+        balance.friction -= total - normal;
+        if (!contact.other) balance.external_work += contact.impulse.dot(contact.drive);
+        else if (contact.other->mobility == 0)
+            for (int k = 0; k < Dim; ++k)
+                balance.external_work += contact.weight[k] * contact.impulse.dot(contact.other->v(contact.vertex[k]));
+        if (contact.body->mobility == 0)
+            balance.external_work -= contact.impulse.dot(contact.body->v(contact.point));
+    }
+}
+
+template <int Dim> void Assembly<Dim>::evaluate_energy(int threads)
+{
+    const int count = int(batches_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int b = 0; b < count; ++b) {
+        Batch<Dim>& batch = *batches_[b];
+        batch.law.energy[batch.wide()](batch.data(), batch.per_lane.data(), batch.per_lane.data() + batch.lanes);
+        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+            Grain<Dim>& grain = *members_[b][lane];
+            grain.elastic = std::pow(grain.radius, Dim) * batch.per_lane[lane];
+            grain.min_stretch = batch.per_lane[batch.lanes + lane];
+        }
+    }
+}
+
+template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
+{
+    Batch<Dim> batch(grain.mesh, *grain.law, 1);
+    for (int k = 0; k < max_parameters; ++k)
+        batch.parameters[k] = grain.parameters[k];
+    const int size = Dim * grain.mesh->master_count;
+    std::mt19937 generator(1);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::vector<double> x(size);
+    for (double& value : x)
+        value = uniform(generator);
+    // x <- M^-1 K x; K x by the force at a displacement small enough to be linear and large enough to be exact
+    constexpr double small = 1e-7;
+    double eigenvalue = 0;
+    for (int iteration = 0; iteration < 300; ++iteration) {
+        double norm = 0;
+        for (int i = 0; i < size; ++i)
+            norm += grain.mesh->node_mass[i / Dim] * x[i] * x[i];
+        norm = std::sqrt(norm);
+        for (int i = 0; i < size; ++i)
+            batch.displacement[i] = small * (x[i] /= norm);
+        double sums[MotionSums<Dim>::count], min_J;
+        motion_kernels<Dim>().observe[0](batch.data(), sums);
+        grain.law->internal_force[0](batch.data(), &min_J);
+        eigenvalue = 0;
+        for (int i = 0; i < size; ++i) {
+            eigenvalue -= x[i] * batch.force[i] / small;
+            x[i] = -batch.force[i] / small / grain.mesh->node_mass[i / Dim];
+        }
+    }
+    return 2 / std::sqrt(eigenvalue);
+}
+
+template class Assembly<2>;
+template double unit_critical_step<2>(const Grain<2>&);
+
+} // namespace softgrain

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The explicit step of all grains: symplectic Euler with Contact Dynamics.
+//
+//     v* = v + dt f(u) / m + dt g        predict
+//     v' = v* + contact impulses / m     (the caller fills the contact problem, a solver solves it)
+//     u' = u + dt v'                     correct
+#pragma once
+
+#include "solver/contact_problem.hpp"
+#include "step/grain.hpp"
+
+namespace softgrain {
+
+/// Energies since the start [J] (J/m in 2D). Elastic and kinetic stand with the grains.
+struct EnergyBalance {
+    double external_work = 0;       ///< of driven bodies and body forces on the grains
+    double friction = 0;            ///< dissipated by sliding
+    double contact_dissipation = 0; ///< dissipated by normal impulses (inelastic impact of surface points)
+};
+
+template <int Dim> class Assembly {
+public:
+    /// Takes the grains in; their order decides nothing but the order of sums.
+    explicit Assembly(std::vector<Grain<Dim>*> grains);
+    /// Hands the node fields back to the grains.
+    ~Assembly();
+    Assembly(const Assembly&) = delete;
+    Assembly& operator=(const Assembly&) = delete;
+
+    /// Velocities of the surfaces without contact impulses. Throws SimulationError when a point has inverted.
+    void predict(double dt, const Vec<Dim>& gravity, int threads);
+    /// Takes the surface impulses in, moves the grains, renews surfaces and motions. Throws SimulationError
+    /// when a value is no longer finite.
+    void correct(double dt, int threads);
+    /// Work of the solved contacts over the step, with the mean of the velocities before and after it.
+    static void account(const std::vector<Contact<Dim>>& contacts, EnergyBalance& balance);
+    /// Elastic energies and smallest stretches of the grains.
+    void evaluate_energy(int threads);
+
+    const std::vector<Grain<Dim>*>& grains() const { return grains_; }
+
+private:
+    std::vector<Grain<Dim>*> grains_;
+    std::vector<std::unique_ptr<Batch<Dim>>> batches_;
+    std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
+};
+
+/// Largest stable step of symplectic Euler for the undeformed grain, 2 / omega_max, per sqrt(density) radius
+/// [s sqrt(m/kg)]; power iteration on the linearised force.
+template <int Dim> double unit_critical_step(const Grain<Dim>& grain);
+
+/// Largest stable step of a grain as deformed at its last energy evaluation [s]. Compression by a stretch s
+/// raises the frequency of waves along it by 1/s.
+template <int Dim> double critical_step(const Grain<Dim>& grain, double unit_step)
+{
+    return unit_step * std::sqrt(grain.density) * grain.radius * std::min(1.0, grain.min_stretch);
+}
+
+extern template class Assembly<2>;
+extern template double unit_critical_step<2>(const Grain<2>&);
+
+} // namespace softgrain

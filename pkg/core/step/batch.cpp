@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/batch.hpp"
+
+namespace softgrain {
+
+template <int Dim>
+Batch<Dim>::Batch(std::shared_ptr<const Discretisation<Dim>> mesh_, const LawKernels<Dim>& law_, int lanes_)
+    : mesh(std::move(mesh_))
+    , law(law_)
+    , lanes(lanes_)
+    , displacement(size_t(mesh->node_count()) * Dim * lanes)
+    , velocity(displacement.size())
+    , force(displacement.size())
+    , surface(size_t(mesh->surface_count()) * Dim * lanes)
+    , parameters(size_t(max_parameters) * lanes)
+    , inverse_inertia(lanes)
+    , sums(size_t(MotionSums<Dim>::count) * lanes)
+    , gain(size_t(Dim) * lanes)
+    , per_lane(2 * size_t(lanes))
+{
+}
+
+template <int Dim> KernelData<Dim> Batch<Dim>::data()
+{
+    return { mesh->node_count(),
+             mesh->master_count,
+             int(mesh->links.size()),
+             int(mesh->regions.size()),
+             mesh->surface_count(),
+             mesh->node_position.data(),
+             mesh->node_mass.data(),
+             mesh->mean_gradient.data(),
+             mesh->links.data(),
+             mesh->regions.data(),
+             mesh->blocks.data(),
+             mesh->gradient.data(),
+             mesh->surface_stencil.data(),
+             mesh->surface.data(),
+             displacement.data(),
+             velocity.data(),
+             force.data(),
+             surface.data(),
+             parameters.data(),
+             inverse_inertia.data() };
+}
+
+template class Batch<2>;
+
+} // namespace softgrain

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Grains that share a discretisation and a material law, side by side in lanes, and the kernels that advance
+// them. Lengths are in units of each grain's radius; arrays are [node or surface point][Dim][lane]. A grain's
+// current node positions are X + u: rotation and translation are part of u.
+#pragma once
+
+#include "base/aligned.hpp"
+#include "grid/discretisation.hpp"
+
+#include <memory>
+#include <string>
+
+namespace softgrain {
+
+constexpr int max_parameters = 4;
+
+/// What a kernel needs, as plain pointers.
+template <int Dim> struct KernelData {
+    int node_count, master_count, link_count, region_count, surface_count;
+    const Vec<Dim>* node_position;
+    const double* node_mass;
+    const double* mean_gradient;
+    const typename Discretisation<Dim>::Link* links;
+    const typename Discretisation<Dim>::Region* regions;
+    const typename Discretisation<Dim>::Block* blocks;
+    const double* gradient;
+    const typename Discretisation<Dim>::SurfaceStencil* surface_stencil;
+    const BoundaryPoint<Dim>* surface_point;
+
+    double* displacement;
+    double* velocity;              ///< [radius / s]
+    double* force;                 ///< on the masters, per radius^(Dim-1) [Pa]; scratch between the kernels
+    double* surface;               ///< values at the surface points, as each kernel says
+    const double* parameters;      ///< of the law, [parameter][lane] [Pa]
+    const double* inverse_inertia; ///< 1 / (density radius^2), [lane]: from force to acceleration / radius
+};
+
+/// Sums over the masters of a grain, weighted by mass, per lane: where the entries of the array stand.
+template <int Dim> struct MotionSums {
+    static constexpr int spins = Dim * (Dim - 1) / 2;
+    static constexpr int position = 0, velocity = Dim, spin = 2 * Dim, second = spin + spins,
+                         kinetic = second + Dim * Dim, gradient = kinetic + 1, count = gradient + Dim * Dim;
+};
+
+/// Kernels of one law; index 0: one lane, 1: eight lanes.
+template <int Dim> struct LawKernels {
+    const char* name;
+    int parameter_count;
+    const char* const* parameter_names;
+    double (*wave_modulus)(const double* parameters);
+    std::string (*complaint)(const double* parameters);
+    /// Internal force on the masters into `force`; smallest J of a point into min_J [lane].
+    void (*internal_force[2])(const KernelData<Dim>&, double* min_J);
+    /// Elastic energy per radius^Dim [J/m^Dim] and smallest principal stretch, [lane].
+    void (*energy[2])(const KernelData<Dim>&, double* energy, double* min_stretch);
+    /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa].
+    Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
+};
+
+/// Kernels of every law.
+template <int Dim> struct MotionKernels {
+    /// v += dt f / m + gain, gain [Dim][lane]; v at the surface into `surface`.
+    void (*kick[2])(const KernelData<Dim>&, double dt, const double* gain);
+    /// v += impulses in `surface` [density radius^(Dim+1) / s] over the masses.
+    void (*push[2])(const KernelData<Dim>&);
+    /// u += dt v.
+    void (*drift[2])(const KernelData<Dim>&, double dt);
+    /// Slave displacements; surface positions into `surface`; motion sums [count][lane] into `sums`.
+    void (*observe[2])(const KernelData<Dim>&, double* sums);
+};
+
+/// The laws there are. Throws UserError, naming them, for another name.
+template <int Dim> const LawKernels<Dim>& law_kernels(const std::string& name);
+template <int Dim> const MotionKernels<Dim>& motion_kernels();
+
+/// Arrays of up to `lanes` grains (1 or 8).
+template <int Dim> class Batch {
+public:
+    Batch(std::shared_ptr<const Discretisation<Dim>> mesh, const LawKernels<Dim>& law, int lanes);
+
+    const std::shared_ptr<const Discretisation<Dim>> mesh;
+    const LawKernels<Dim>& law;
+    const int lanes;
+    AlignedVector displacement, velocity, force, surface, parameters, inverse_inertia, sums, gain, per_lane;
+
+    KernelData<Dim> data();
+    /// Index into the kernel tables.
+    int wide() const { return lanes == 8; }
+};
+
+extern template class Batch<2>;
+
+} // namespace softgrain

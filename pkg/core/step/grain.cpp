@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/grain.hpp"
+
+#include <cmath>
+
+namespace softgrain {
+
+template <int Dim> Motion<Dim> motion_of(const Grain<Dim>& grain, const double* sums, int stride)
+{
+    using Sums = MotionSums<Dim>;
+    const double volume = grain.mesh->moments.volume, R = grain.radius;
+    const auto at = [&](int entry) { return sums[size_t(entry) * stride]; };
+    Motion<Dim> motion;
+    Vec<Dim> x, v;
+    for (int d = 0; d < Dim; ++d) {
+        x[d] = at(Sums::position + d) / volume;
+        v[d] = at(Sums::velocity + d) / volume;
+        for (int e = 0; e < Dim; ++e) {
+            motion.second_moment(d, e) = at(Sums::second + Dim * d + e);
+            motion.mean_gradient(d, e) = (d == e) + at(Sums::gradient + Dim * d + e);
+        }
+    }
+    const double mass_unit = grain.density * std::pow(R, Dim);
+    motion.position = grain.origin + R * x;
+    motion.velocity = R * v;
+    motion.second_moment = mass_unit * R * R * (motion.second_moment - volume * x * x.transpose());
+    for (int a = 0, k = 0; a < Dim; ++a)
+        for (int b = a + 1; b < Dim; ++b, ++k)
+            motion.angular_momentum[k] = mass_unit * R * R * (at(Sums::spin + k) - volume * (x[a] * v[b] - x[b] * v[a]));
+    motion.kinetic = 0.5 * mass_unit * R * R * at(Sums::kinetic);
+    return motion;
+}
+
+template <int Dim>
+void Grain<Dim>::place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const Vec<Dim>& speed,
+                       const Mat<Dim>& velocity_gradient)
+{
+    batch = nullptr;
+    origin = centre;
+    displacement.resize(size_t(Dim) * mesh->master_count);
+    velocity.resize(displacement.size());
+    for (int i = 0; i < mesh->master_count; ++i) {
+        const Vec<Dim>& X = mesh->node_position[i];
+        const Vec<Dim> x = rotation * X, v = speed / radius + velocity_gradient * x;
+        for (int d = 0; d < Dim; ++d) {
+            displacement[size_t(Dim) * i + d] = x[d] - X[d];
+            velocity[size_t(Dim) * i + d] = v[d];
+        }
+    }
+    refresh();
+}
+
+template <int Dim> std::vector<double> Grain<Dim>::with_slaves(const std::vector<double>& field) const
+{
+    std::vector<double> all(field);
+    all.resize(size_t(Dim) * mesh->node_count(), 0);
+    for (const auto& link : mesh->links)
+        for (int d = 0; d < Dim; ++d)
+            all[size_t(Dim) * link.slave + d] += link.weight * all[size_t(Dim) * link.master + d];
+    return all;
+}
+
+template <int Dim> Batch<Dim> Grain<Dim>::alone() const
+{
+    Batch<Dim> batch(mesh, *law, 1);
+    std::copy(parameters.begin(), parameters.end(), batch.parameters.begin());
+    std::copy(displacement.begin(), displacement.end(), batch.displacement.begin());
+    std::copy(velocity.begin(), velocity.end(), batch.velocity.begin());
+    motion_kernels<Dim>().observe[0](batch.data(), batch.sums.data());
+    return batch;
+}
+
+template <int Dim> double Grain<Dim>::elastic_energy()
+{
+    Batch<Dim> batch = alone();
+    law->energy[0](batch.data(), &elastic, &min_stretch);
+    return elastic *= std::pow(radius, Dim);
+}
+
+template <int Dim> void Grain<Dim>::refresh()
+{
+    Batch<Dim> alone = this->alone();
+    motion = motion_of(*this, alone.sums.data(), 1);
+
+    surface.resize(mesh->surface_count());
+    surface.mesh = mesh.get();
+    surface.size = radius;
+    surface.mobility = 1 / (density * std::pow(radius, Dim));
+    const std::vector<double> v = with_slaves(velocity);
+    surface.speed = 0;
+    for (int p = 0; p < surface.count; ++p) {
+        surface.corner[p] = mesh->surface[p].corner;
+        const Vec<Dim> speed = radius * mesh->at_surface(p, v.data());
+        surface.v(p) = speed;
+        surface.speed = std::max(surface.speed, speed.norm());
+        for (int d = 0; d < Dim; ++d)
+            surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface[size_t(Dim) * p + d];
+    }
+    surface.bound();
+}
+
+template <int Dim> void Grain<Dim>::pull()
+{
+    if (!batch) return;
+    for (size_t i = 0; i < displacement.size(); ++i) {
+        displacement[i] = batch->displacement[i * batch->lanes + lane];
+        velocity[i] = batch->velocity[i * batch->lanes + lane];
+    }
+}
+
+template <int Dim> std::vector<Mat<Dim>> Grain<Dim>::deformation_gradients() const
+{
+    constexpr int stencil = Discretisation<Dim>::stencil;
+    const std::vector<double> u = with_slaves(displacement);
+    std::vector<Mat<Dim>> F(mesh->point_count(), Mat<Dim>::Identity());
+    for (const auto& block : mesh->blocks)
+        for (int p = block.first_point; p < block.first_point + block.point_count; ++p)
+            for (int k = 0; k < stencil; ++k)
+                F[p] += Eigen::Map<const Vec<Dim>>(&u[size_t(Dim) * block.node[k]])
+                    * Eigen::Map<const Vec<Dim>>(&mesh->gradient[(size_t(p) * stencil + k) * Dim]).transpose();
+    return F;
+}
+
+template <int Dim> std::vector<Mat<3>> Grain<Dim>::cauchy_stresses() const
+{
+    const std::vector<Mat<Dim>> F = deformation_gradients();
+    std::vector<Mat<3>> stress;
+    for (const auto& region : mesh->regions) {
+        const int first = mesh->blocks[region.first_block].first_point, points = power(2, Dim);
+        double mean_J = 0;
+        for (int p = first; p < first + points; ++p)
+            mean_J += F[p].determinant() / points;
+        for (int p = first; p < first + points; ++p) {
+            Mat<3> whole = Mat<3>::Identity();
+            whole.template topLeftCorner<Dim, Dim>() = F[p];
+            stress.push_back(law->cauchy_stress(parameters.data(), whole, mean_J));
+        }
+    }
+    return stress;
+}
+
+template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::at_points(const std::vector<double>& field) const
+{
+    constexpr int stencil = Discretisation<Dim>::stencil;
+    const std::vector<double> all = with_slaves(field);
+    std::vector<Vec<Dim>> values(mesh->point_count(), Vec<Dim>::Zero());
+    for (const auto& block : mesh->blocks)
+        for (int p = block.first_point; p < block.first_point + block.point_count; ++p)
+            for (int k = 0; k < stencil; ++k)
+                values[p] += mesh->shape[size_t(p) * stencil + k]
+                    * Eigen::Map<const Vec<Dim>>(&all[size_t(Dim) * block.node[k]]);
+    return values;
+}
+
+template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_positions() const
+{
+    std::vector<Vec<Dim>> x = at_points(displacement);
+    for (int p = 0; p < mesh->point_count(); ++p)
+        x[p] = origin + radius * (mesh->point_position[p] + x[p]);
+    return x;
+}
+
+template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_velocities() const
+{
+    std::vector<Vec<Dim>> v = at_points(velocity);
+    for (auto& value : v)
+        value *= radius;
+    return v;
+}
+
+template Motion<2> motion_of<2>(const Grain<2>&, const double*, int);
+template struct Grain<2>;
+
+} // namespace softgrain

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/surface.hpp"
+#include "step/batch.hpp"
+
+#include <memory>
+
+namespace softgrain {
+
+/// Rigid part of a grain's motion.
+template <int Dim> struct Motion {
+    static constexpr int spins = MotionSums<Dim>::spins;
+    Vec<Dim> position = Vec<Dim>::Zero(), velocity = Vec<Dim>::Zero(); ///< of the centre of mass [m], [m/s]
+    Eigen::Matrix<double, spins, 1> angular_momentum = Eigen::Matrix<double, spins, 1>::Zero(); ///< about it [kg m2/s]
+    Mat<Dim> second_moment = Mat<Dim>::Zero();  ///< of mass about it [kg m2]
+    Mat<Dim> mean_gradient = Mat<Dim>::Identity(); ///< mean deformation gradient F
+    double kinetic = 0; ///< [J]
+};
+
+/// A soft grain: what it is made of, and its state. While it belongs to an Assembly the node fields live there;
+/// `pull` brings them here.
+template <int Dim> struct Grain {
+    int id = -1; ///< what messages call it
+    std::shared_ptr<const Discretisation<Dim>> mesh;
+    const LawKernels<Dim>* law = nullptr;
+    std::array<double, max_parameters> parameters {}; ///< of the law [Pa]
+    double density = 0, radius = 0;                   ///< [kg/m3], [m] (equal-volume radius)
+    Vec<Dim> origin = Vec<Dim>::Zero();               ///< a node is at origin + radius (X + u) [m]
+    std::vector<double> displacement, velocity;       ///< of the masters, [node][Dim] [radius], [radius/s]
+    Surface<Dim> surface;
+    Motion<Dim> motion;
+    double min_J = 1, min_stretch = 1, elastic = 0;   ///< elastic energy [J], as of the last evaluation
+
+    double mass() const { return density * mesh->moments.volume * std::pow(radius, Dim); }
+    double reference_volume() const { return mesh->moments.volume * std::pow(radius, Dim); }
+    /// At rest, undeformed, turned by `rotation`, centre at `centre`; sizes all fields.
+    void place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const Vec<Dim>& velocity,
+               const Mat<Dim>& velocity_gradient);
+    /// Surface and motion from the node fields held here.
+    void refresh();
+    /// Current positions of the material points, [point] [m].
+    std::vector<Vec<Dim>> point_positions() const;
+    /// Deformation gradients at the material points.
+    std::vector<Mat<Dim>> deformation_gradients() const;
+    /// Cauchy stresses at the material points [Pa]; in 2D plane strain, with the out-of-plane stress.
+    std::vector<Mat<3>> cauchy_stresses() const;
+    /// Elastic energy now [J], from the node fields held here; renews `elastic` and `min_stretch` too.
+    double elastic_energy();
+    /// Velocities of the material points [m/s].
+    std::vector<Vec<Dim>> point_velocities() const;
+
+    Batch<Dim>* batch = nullptr; ///< of the assembly it belongs to
+    int lane = 0;
+    /// Brings the node fields from the batch, if there is one.
+    void pull();
+
+private:
+    Batch<Dim> alone() const;
+    std::vector<Vec<Dim>> at_points(const std::vector<double>& field) const;
+    std::vector<double> with_slaves(const std::vector<double>& field) const;
+};
+
+/// Motion from the sums of MotionKernels::observe; `stride` apart in the array.
+template <int Dim> Motion<Dim> motion_of(const Grain<Dim>& grain, const double* sums, int stride);
+
+extern template struct Grain<2>;
+
+} // namespace softgrain

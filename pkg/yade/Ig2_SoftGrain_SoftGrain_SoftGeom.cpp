@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Ig2_SoftGrain_SoftGrain_SoftGeom.hpp"
+
+#include "Problems.hpp"
+#include "SoftGeom.hpp"
+#include "SoftIntegrator.hpp"
+#include "SoftState.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((SoftIGeomFunctor)(Ig2_SoftGrain_SoftGrain_SoftGeom));
+
+void SoftIGeomFunctor::preStep()
+{
+    Problems::raise();
+    bool integrated = false, soft = false;
+    for (const auto& engine : scene->engines)
+        integrated |= dynamic_cast<const SoftIntegrator*>(engine.get()) && !engine->dead;
+    if (integrated) return;
+    for (const auto& body : *scene->bodies)
+        soft |= softStateOf(*body) != nullptr;
+    if (soft) throw std::runtime_error("O.engines has no SoftIntegrator (or a dead one), so soft grains would stand still; append SoftIntegrator() or take softEngines().");
+}
+
+bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(
+        const shared_ptr<Shape>&,
+        const shared_ptr<Shape>&,
+        const State& state1,
+        const State& state2,
+        const Vector3r&,
+        const bool&,
+        const shared_ptr<Interaction>& interaction)
+{
+    const auto& first  = static_cast<const SoftState&>(state1).grain.surface;
+    const auto& second = static_cast<const SoftState&>(state2).grain.surface;
+    if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
+    auto& geom = static_cast<SoftGeom&>(*interaction->geom);
+    Problems::guard([&] { geom.pair.update(first, second, scene->dt); });
+    return interaction->isReal() || !geom.pair.points.empty();
+}
+
+} // namespace yade

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Ig2_Wall_SoftGrain_SoftGeom.hpp"
+
+#include "Problems.hpp"
+#include "SoftGeom.hpp"
+#include "SoftState.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((Ig2_Wall_SoftGrain_SoftGeom));
+
+bool Ig2_Wall_SoftGrain_SoftGeom::go(
+        const shared_ptr<Shape>& shape1,
+        const shared_ptr<Shape>&,
+        const State& state1,
+        const State& state2,
+        const Vector3r&,
+        const bool&,
+        const shared_ptr<Interaction>& interaction)
+{
+    const auto& wall  = static_cast<const Wall&>(*shape1);
+    const auto& grain = static_cast<const SoftState&>(state2).grain;
+    if (wall.axis > 1) return false;
+    if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
+    auto& geom     = static_cast<SoftGeom&>(*interaction->geom);
+    geom.withPlane = true;
+    const int side = wall.sense != 0 ? wall.sense : grain.motion.position[wall.axis] >= state1.pos[wall.axis] ? 1 : -1;
+    Problems::guard([&] {
+        geom.plane.update(grain.surface, wall.axis, state1.pos[wall.axis], side, std::abs(state1.vel[wall.axis]), scene->dt);
+    });
+    return interaction->isReal() || !geom.plane.points.empty();
+}
+
+} // namespace yade

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "SoftGeom.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((SoftGeom));
+
+void SoftGeom::preSave(SoftGeom&)
+{
+    savedPoints.clear();
+    savedForces.clear();
+    for (const auto& contact : points()) {
+        savedPoints.insert(savedPoints.end(), { contact.point, int(contact.on_second) });
+        savedForces.push_back(contact.force);
+    }
+}
+
+void SoftGeom::postLoad(SoftGeom&)
+{
+    // which of the two lists is used shows at the next update; both start from the saved forces
+    std::vector<softgrain::ContactPoint<2>> saved(savedForces.size());
+    for (size_t i = 0; i < saved.size() && 2 * i + 1 < savedPoints.size(); ++i) {
+        saved[i].point     = savedPoints[2 * i];
+        saved[i].on_second = savedPoints[2 * i + 1] != 0;
+        saved[i].force     = savedForces[i];
+    }
+    pair.points = plane.points = saved;
+}
+
+} // namespace yade

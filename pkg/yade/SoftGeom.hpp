@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/IGeom.hpp>
+
+#include "contact/narrow_phase.hpp"
+
+namespace yade {
+
+class SoftGeom : public IGeom {
+public:
+    /// Contact points of a grain with another grain or a rigid polygon.
+    softgrain::PairContacts<2> pair;
+    /// Contact points of a grain with a wall.
+    softgrain::PlaneContacts<2> plane;
+    /// The rigid body's boundary, if it has one of its own.
+    softgrain::Surface<2> rigid;
+    bool withPlane = false;
+
+    std::vector<softgrain::ContactPoint<2>>& points() { return withPlane ? plane.points : pair.points; }
+    /// The bodies are so near that the interaction is worth keeping.
+    bool near() const { return withPlane ? plane.near() : pair.near(); }
+    void preSave(SoftGeom&);
+    void postLoad(SoftGeom&);
+    int pointCount() { return int(points().size()); }
+
+    YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
+            SoftGeom,
+            IGeom,
+            "Contact points of two bodies at least one of which is a :yref:`SoftGrain`: surface points of the one near the boundary of the "
+            "other.",
+            ((vector<int>, savedPoints, , Attr::hidden, "Surface point and side of each contact point, in pairs [-]."))(
+                    (vector<Vector2r>, savedForces, , Attr::hidden, "Force on each contact point's side in the last step [N/m].")),
+            createIndex(),
+            .def("pointCount", &SoftGeom::pointCount, "Number of contact points looked at in the last step, touching or about to [-]."));
+    REGISTER_CLASS_INDEX(SoftGeom, IGeom);
+};
+REGISTER_SERIALIZABLE(SoftGeom);
+
+} // namespace yade

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "SoftIntegrator.hpp"
+
+#include "Bo1_SoftGrain_Aabb.hpp"
+#include "Ig2_SoftGrain_SoftGrain_SoftGeom.hpp"
+#include "Problems.hpp"
+#include "SoftTimeStepper.hpp"
+
+#include <core/InteractionLoop.hpp>
+
+#include <chrono>
+#include <omp.h>
+
+namespace yade {
+
+YADE_PLUGIN((SoftIntegrator));
+
+namespace {
+
+    /// Adds the time since the last call to a stage.
+    class Stopwatch {
+    public:
+        explicit Stopwatch(std::vector<Real>& stages)
+                : stages_(stages)
+                , last_(Clock::now())
+        {
+        }
+        void stage(int index)
+        {
+            const auto now = Clock::now();
+            stages_[index] += std::chrono::duration<Real>(now - last_).count();
+            last_ = now;
+        }
+
+    private:
+        using Clock = std::chrono::steady_clock;
+        std::vector<Real>& stages_;
+        Clock::time_point last_;
+    };
+
+    Vector3r inSpace(const softgrain::Vec<2>& v) { return Vector3r(v[0], v[1], 0); }
+
+} // namespace
+
+SoftIntegrator::~SoftIntegrator() = default;
+
+int SoftIntegrator::threads() const { return ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads(); }
+
+void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
+
+void SoftIntegrator::action()
+{
+    Problems::raise();
+    const double dt = scene->dt;
+    adopt();
+    if (states_.empty()) return;
+    if (!(dt <= criticalStep))
+        throw std::runtime_error(
+                "O.dt = " + softgrain::shown(dt) + " s is over the largest stable time step of the soft grains, " + softgrain::shown(criticalStep)
+                + " s; set O.dt below it, or put SoftTimeStepper() into O.engines.");
+    Stopwatch watch(stageSeconds);
+
+    assembly_->predict(dt, gravity.head<2>(), threads());
+    watch.stage(0);
+
+    gatherPairs();
+    pose(dt);
+    if (fresh_) refuseOverlaps();
+    fresh_ = false;
+    watch.stage(1);
+
+    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps }.solve(contacts_);
+    totalIterations += iterations;
+    contactCount = int(contacts_.size());
+    watch.stage(2);
+
+    softgrain::EnergyBalance balance;
+    softgrain::Assembly<2>::account(contacts_, balance);
+    for (SoftState* state : states_) {
+        balance.external_work += dt * state->mass * gravity.dot(state->vel);
+        std::fill(state->grain.surface.impulse.begin(), state->grain.surface.impulse.end(), 0.0);
+    }
+    externalWork += balance.external_work;
+    frictionDissipation += balance.friction;
+    contactDissipation += balance.contact_dissipation;
+    deliver(dt);
+    assembly_->correct(dt, threads());
+    for (SoftState* state : states_)
+        state->publish();
+    requestCollider();
+    if (scene->iter % std::max(1, checkInterval) == 0) evaluate();
+    if (scene->trackEnergy) trackEnergies();
+    watch.stage(3);
+}
+
+/// Takes in the soft bodies of the scene; rebuilds the assembly when they are others than in the last step.
+void SoftIntegrator::adopt()
+{
+    size_t known   = 0;
+    bool unchanged = assembly_ != nullptr;
+    std::vector<shared_ptr<Body>> now;
+    for (const auto& body : *scene->bodies) {
+        if (!softStateOf(*body)) continue;
+        if (unchanged && known < bodies_.size() && bodies_[known] == body && states_[known] == body->state.get()) ++known;
+        else
+            unchanged = false;
+        if (!unchanged) break;
+    }
+    if (unchanged && known == bodies_.size()) return;
+
+    requireFunctors();
+    if (gravity[2] != 0 || !gravity.allFinite())
+        throw std::runtime_error("SoftIntegrator: gravity has to be finite and to lie in the xy-plane (z component 0), the plane of the grains.");
+    if (scene->isPeriodic) throw std::runtime_error("SoftIntegrator: periodic scenes (O.periodic=True) are not supported for soft grains; use walls.");
+    assembly_.reset();
+    bodies_.clear();
+    states_.clear();
+    std::vector<softgrain::Grain<2>*> grains;
+    for (const auto& body : *scene->bodies) {
+        SoftState* state = softStateOf(*body);
+        if (!state) continue;
+        fresh_ |= !state->prepared() || scene->iter == body->iterBorn;
+        state->prepare(*body);
+        bodies_.push_back(body);
+        states_.push_back(state);
+        grains.push_back(&state->grain);
+    }
+    if (grains.empty()) return;
+    assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
+    contacts_.clear();
+    evaluate();
+}
+
+void SoftIntegrator::requireFunctors() const
+{
+    bool bound = false, geom = false, phys = false, law = false;
+    for (const auto& engine : scene->engines)
+        if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
+            for (const auto& functor : loop->geomDispatcher->functors)
+                geom |= dynamic_cast<const Ig2_SoftGrain_SoftGrain_SoftGeom*>(functor.get()) != nullptr;
+            for (const auto& functor : loop->physDispatcher->functors)
+                phys |= functor->getClassName() == "Ip2_SoftMat_SoftMat_SoftPhys";
+            for (const auto& functor : loop->lawDispatcher->functors)
+                law |= functor->getClassName() == "Law2_SoftGeom_SoftPhys_ContactDynamics";
+        }
+    for (const auto& body : *scene->bodies)
+        if (softStateOf(*body) && body->bound) bound = true;
+    const auto demand = [](bool there, const char* what, const char* where) {
+        if (!there)
+            throw std::runtime_error(
+                    std::string("O.engines lacks ") + what + ", so soft grains would pass through each other; add it to " + where
+                    + ", or take softEngines().");
+    };
+    bool any = false;
+    for (const auto& body : *scene->bodies)
+        any |= softStateOf(*body) != nullptr;
+    if (!any) return;
+    demand(geom, "Ig2_SoftGrain_SoftGrain_SoftGeom", "InteractionLoop");
+    demand(phys, "Ip2_SoftMat_SoftMat_SoftPhys", "InteractionLoop");
+    demand(law, "Law2_SoftGeom_SoftPhys_ContactDynamics", "InteractionLoop");
+    demand(bound, "Bo1_SoftGrain_Aabb", "InsertionSortCollider");
+}
+
+/// All pairs in touch, by ascending ids of their bodies: the same order for every number of threads.
+void SoftIntegrator::gatherPairs()
+{
+    pairs_.clear();
+    const int geomIndex = SoftGeom::getClassIndexStatic();
+    for (const auto& body : bodies_)
+        for (const auto& [otherId, interaction] : body->intrs) {
+            if (!interaction->isReal() || interaction->geom->getClassIndex() != geomIndex) continue;
+            auto geom = boost::static_pointer_cast<SoftGeom>(interaction->geom);
+            auto phys = boost::static_pointer_cast<SoftPhys>(interaction->phys);
+            if (!phys->law) continue;
+            const auto& other     = (*scene->bodies)[otherId];
+            SoftState* otherState = softStateOf(*other);
+            if (otherState && otherId < body->id) continue;
+            auto* state           = static_cast<SoftState*>(body->state.get());
+            const bool isFirst    = interaction->id1 == body->id;
+            SoftState* const one  = isFirst ? state : otherState;
+            SoftState* const two  = isFirst ? otherState : state;
+            pairs_.push_back({ interaction->id1, interaction->id2, std::move(geom), std::move(phys), one, two, otherState ? nullptr : other->state.get() });
+        }
+}
+
+void SoftIntegrator::pose(double dt)
+{
+    contacts_.clear();
+    for (const Pair& pair : pairs_) {
+        softgrain::Surface<2>* first  = pair.first ? &pair.first->grain.surface : pair.geom->withPlane ? nullptr : &pair.geom->rigid;
+        softgrain::Surface<2>* second = &pair.second->grain.surface;
+        for (const auto& point : pair.geom->points()) {
+            softgrain::Contact<2> contact;
+            contact.body      = pair.geom->withPlane || point.on_second ? second : first;
+            contact.other     = point.on_second ? first : pair.geom->withPlane ? nullptr : second;
+            contact.point     = point.point;
+            contact.vertex    = point.vertex;
+            contact.weight    = point.weight;
+            contact.normal    = point.normal;
+            contact.gap_speed = point.gap / dt;
+            contact.drive     = softgrain::Vec<2>::Zero();
+            if (pair.rigid && pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
+            contact.friction = pair.phys->friction;
+            contact.law      = pair.phys->law;
+            contact.impulse  = dt * point.force;
+            contacts_.push_back(contact);
+        }
+    }
+}
+
+/// New grains must not overlap: contact would throw them apart.
+void SoftIntegrator::refuseOverlaps() const
+{
+    for (const Pair& pair : pairs_) {
+        const Real size = pair.second->grain.surface.size;
+        for (const auto& point : pair.geom->points())
+            if (point.gap < -1e-3 * size)
+                throw std::runtime_error(
+                        "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by "
+                        + softgrain::shown(-point.gap) + " m at the start; move them apart or make them smaller.");
+    }
+}
+
+/// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
+void SoftIntegrator::deliver(double dt)
+{
+    size_t index = 0;
+    for (const Pair& pair : pairs_) {
+        softgrain::Vec<2> normal = softgrain::Vec<2>::Zero(), shear = normal, place = normal;
+        Real weight = 0, moment = 0;
+        for (auto& point : pair.geom->points()) {
+            const auto& contact = contacts_[index++];
+            point.force         = contact.impulse / dt;
+            if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
+            for (int d = 0; d < 2; ++d) {
+                contact.body->impulse[2 * contact.point + d] += contact.impulse[d];
+                if (contact.other)
+                    for (int k = 0; k < 2; ++k)
+                        contact.other->impulse[2 * contact.vertex[k] + d] -= contact.weight[k] * contact.impulse[d];
+            }
+            // on body id2
+            const bool onSecond               = contact.body == &pair.second->grain.surface;
+            const softgrain::Vec<2> force     = onSecond ? point.force : softgrain::Vec<2>(-point.force);
+            const softgrain::Vec<2> along     = force.dot(point.normal) * point.normal;
+            const softgrain::Vec<2> where     = contact.body->x(contact.point);
+            const Real size                   = along.norm();
+            normal += along;
+            shear += force - along;
+            place += size * where;
+            weight += size;
+            if (pair.rigid) {
+                const softgrain::Vec<2> arm = where - pair.rigid->pos.head<2>();
+                moment -= arm[0] * force[1] - arm[1] * force[0];
+            }
+        }
+        pair.phys->normalForce  = inSpace(normal);
+        pair.phys->shearForce   = inSpace(shear);
+        pair.phys->contactPoint = weight > 0 ? inSpace(place / weight) : Vector3r::Zero();
+        if (pair.rigid && weight > 0) {
+            scene->forces.addForce(pair.id1, -inSpace(normal + shear));
+            scene->forces.addTorque(pair.id1, Vector3r(0, 0, moment));
+        }
+    }
+    scene->forces.sync(); // or they would add to those of the next step
+}
+
+/// The collider looks at centres only; grains also change shape.
+void SoftIntegrator::requestCollider() const
+{
+    for (size_t i = 0; i < states_.size(); ++i) {
+        const auto& surface = states_[i]->grain.surface;
+        const auto& bound   = bodies_[i]->bound;
+        if (!bound) continue;
+        const Real ahead = softgrain::reach(surface, surface.speed, scene->dt);
+        for (int d = 0; d < 2; ++d)
+            if (surface.min[d] - ahead < bound->min[d] || surface.max[d] + ahead > bound->max[d]) scene->doSort = true;
+    }
+}
+
+void SoftIntegrator::evaluate()
+{
+    if (!assembly_) return;
+    assembly_->evaluate_energy(threads());
+    criticalStep = std::numeric_limits<Real>::max();
+    for (SoftState* state : states_)
+        criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));
+}
+
+void SoftIntegrator::trackEnergies()
+{
+    evaluate();
+    auto& energy = *scene->energy;
+    energy.set(elasticEnergy(), "softElastic", elasticId_);
+    energy.set(kineticEnergy(), "softKinetic", kineticId_);
+    energy.set(frictionDissipation, "softFriction", frictionId_);
+    energy.set(contactDissipation, "softContact", contactId_);
+    energy.set(-externalWork, "softExternalWork", workId_);
+}
+
+Real SoftIntegrator::elasticEnergy()
+{
+    evaluate();
+    Real sum = 0;
+    for (const SoftState* state : states_)
+        sum += state->grain.elastic;
+    return sum;
+}
+
+Real SoftIntegrator::kineticEnergy()
+{
+    Real sum = 0;
+    for (const SoftState* state : states_)
+        sum += state->grain.motion.kinetic;
+    return sum;
+}
+
+Real SoftIntegrator::solidArea()
+{
+    Real sum = 0;
+    for (SoftState* state : states_)
+        sum += state->area();
+    return sum;
+}
+
+Real SoftIntegrator::minJ() const
+{
+    Real least = 1;
+    for (const SoftState* state : states_)
+        least = std::min(least, state->grain.min_J);
+    return least;
+}
+
+Real SoftIntegrator::maxPenetration() const
+{
+    Real deepest = 0;
+    for (const Pair& pair : pairs_) {
+        Real size = pair.second->grain.surface.size;
+        if (pair.first) size = std::min(size, pair.first->grain.surface.size);
+        for (const auto& point : pair.geom->points())
+            deepest = std::max(deepest, -point.gap / size);
+    }
+    return deepest;
+}
+
+Real SoftIntegrator::residual() const { return softgrain::contact_residual(contacts_); }
+
+boost::python::list SoftIntegrator::contacts() const
+{
+    boost::python::list touching;
+    for (const Pair& pair : pairs_) {
+        const Vector3r force = pair.phys->normalForce + pair.phys->shearForce;
+        if (pair.phys->normalForce.squaredNorm() == 0) continue;
+        touching.append(boost::python::make_tuple(
+                pair.id1, pair.id2, pair.phys->contactPoint, pair.phys->normalForce.normalized(), force));
+    }
+    return touching;
+}
+
+} // namespace yade

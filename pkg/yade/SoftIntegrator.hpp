@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/GlobalEngine.hpp>
+#include <core/Scene.hpp>
+
+#include "SoftGeom.hpp"
+#include "SoftPhys.hpp"
+#include "SoftState.hpp"
+
+#include "solver/nlgs.hpp"
+#include "step/assembly.hpp"
+
+#include <memory>
+
+namespace yade {
+
+class SoftIntegrator : public GlobalEngine {
+public:
+    virtual ~SoftIntegrator();
+    void action() override;
+
+    /// Renews elastic energies and smallest stretches.
+    void evaluate();
+    Real elasticEnergy();
+    Real kineticEnergy();
+    Real solidArea();
+    Real minJ() const;
+    Real maxPenetration() const;
+    Real residual() const;
+    boost::python::list contacts() const;
+    void postLoad(SoftIntegrator&);
+
+    YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
+            SoftIntegrator,
+            GlobalEngine,
+            "Advances all soft grains by one step: internal forces of the material points, contacts of all interactions by Contact Dynamics "
+            "(non-linear Gauss-Seidel), symplectic Euler. Stands behind InteractionLoop and NewtonIntegrator in O.engines; moves no other "
+            "bodies. Reactions on walls and boxes are in O.forces after the step. 2D: forces, energies and masses are per metre of thickness.",
+            ((Vector3r, gravity, Vector3r::Zero(), , "Acceleration of all soft grains [m/s²]; its z component has to be 0."))(
+                    (Real, tolerance, 1e-3, , "The contact solver stops when a sweep changes the impulses by less than this, relative [-]."))(
+                    (int, maxSweeps, 1000, , "Most sweeps of the contact solver in a step [-]."))(
+                    (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
+                    (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
+                    (Real, externalWork, 0, Attr::readonly, "Work of driven bodies and gravity on the grains since the start [J/m]."))(
+                    (Real, frictionDissipation, 0, Attr::readonly, "Energy dissipated by friction since the start [J/m]."))(
+                    (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
+                    (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
+                    (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
+                    (int, contactCount, 0, Attr::readonly, "Contact points in the last step's contact problem [-]."))(
+                    (vector<Real>,
+                     stageSeconds,
+                     vector<Real>(4, 0),
+                     Attr::readonly,
+                     "Wall-clock time since the start of [forces and kick, gathering contacts, solving them, moving the grains] [s].")),
+            ,
+            .def("elasticEnergy", &SoftIntegrator::elasticEnergy, "Elastic energy of all soft grains [J/m].")
+                    .def("kineticEnergy", &SoftIntegrator::kineticEnergy, "Kinetic energy of all soft grains [J/m].")
+                    .def("solidArea", &SoftIntegrator::solidArea, "Current area of all soft grains [m²].")
+                    .def("minJ", &SoftIntegrator::minJ, "Smallest volume ratio of a material point at the start of the last step [-].")
+                    .def("maxPenetration",
+                         &SoftIntegrator::maxPenetration,
+                         "Deepest penetration at the start of the last step [radius of the smaller grain].")
+                    .def("residual",
+                         &SoftIntegrator::residual,
+                         "Residual of the last step's contact problem: ||r - P_K(r - u - μ|uₜ|n)|| / max(|q|, |r|, |u|), as Siconos defines it [-].")
+                    .def("contacts",
+                         &SoftIntegrator::contacts,
+                         "Contacts with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m])."));
+
+private:
+    struct Pair {
+        Body::id_t id1, id2;
+        shared_ptr<SoftGeom> geom;
+        shared_ptr<SoftPhys> phys;
+        SoftState* first; ///< null: a rigid body
+        SoftState* second;
+        const State* rigid;
+    };
+    void adopt();
+    void requireFunctors() const;
+    void gatherPairs();
+    void pose(double dt);
+    void refuseOverlaps() const;
+    void deliver(double dt);
+    void requestCollider() const;
+    void trackEnergies();
+    int threads() const;
+
+    std::vector<shared_ptr<Body>> bodies_;
+    std::vector<SoftState*> states_;
+    std::unique_ptr<softgrain::Assembly<2>> assembly_;
+    std::vector<Pair> pairs_;
+    std::vector<softgrain::Contact<2>> contacts_;
+    bool fresh_ = true;
+    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
+};
+REGISTER_SERIALIZABLE(SoftIntegrator);
+
+} // namespace yade

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <pkg/common/ElastMat.hpp>
+
+#include "step/grain.hpp"
+
+#include <array>
+
+namespace yade {
+
+// Materials of soft grains.
+//
+//   FrictMat
+//     SoftMat
+//       NeoHookeanMat
+//       MooneyRivlinMat
+class SoftMat : public FrictMat {
+public:
+    /// Name of the law in the core; the parameters go in the order that the law names them.
+    virtual std::string lawName() const;
+    virtual std::array<double, softgrain::max_parameters> lawParameters() const;
+    /// The law, once the density and the parameters are found sound. Throws softgrain::UserError.
+    const softgrain::LawKernels<2>& law() const;
+
+    shared_ptr<State> newAssocState() const override;
+    bool stateTypeOk(State* state) const override;
+
+    YADE_CLASS_BASE_DOC_ATTRS_CTOR(
+            SoftMat,
+            FrictMat,
+            "Base of the materials of soft grains: hyperelastic, plane strain. :yref:`density<Material.density>` [kg/m³] is that of the "
+            "undeformed grain; :yref:`frictionAngle<FrictMat.frictionAngle>` [rad] gives Coulomb's coefficient tan(angle) of a contact, the "
+            "smaller of the two bodies' angles counting, as YADE does. young and poisson are not used.",
+            ,
+            createIndex(); density = 1000; frictionAngle = 0;);
+    REGISTER_CLASS_INDEX(SoftMat, FrictMat);
+};
+REGISTER_SERIALIZABLE(SoftMat);
+
+} // namespace yade

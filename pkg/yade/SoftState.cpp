@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "SoftState.hpp"
+
+#include "SoftGrain.hpp"
+#include "SoftMat.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((SoftState));
+
+namespace {
+    using Plane = softgrain::Vec<2>;
+
+    std::string whose(int id) { return "soft grain #" + std::to_string(id); }
+
+    boost::python::object asBytes(const std::vector<double>& values)
+    {
+        return boost::python::object(boost::python::handle<>(
+                PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(double)))));
+    }
+
+    template <class Items> boost::python::object flattened(const Items& items)
+    {
+        std::vector<double> values;
+        for (const auto& item : items)
+            for (int i = 0; i < item.rows(); ++i)
+                for (int j = 0; j < item.cols(); ++j)
+                    values.push_back(item(i, j));
+        return asBytes(values);
+    }
+} // namespace
+
+SoftState* softStateOf(const Body& body)
+{
+    // a class index is an exact type: cheaper than a dynamic cast, and nothing derives from SoftState
+    return body.state && body.state->getClassIndex() == SoftState::getClassIndexStatic() ? static_cast<SoftState*>(body.state.get()) : nullptr;
+}
+
+void SoftState::prepare(const Body& body)
+{
+    if (prepared()) return;
+    const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
+    auto* shape          = dynamic_cast<SoftGrain*>(body.shape.get());
+    if (!shape) throw softgrain::UserError(whose(body.id) + ": its state is a SoftState, its shape has to be a SoftGrain.");
+    if (!material) throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
+    softgrain::Grain<2> fresh;
+    try {
+        fresh.mesh   = shape->mesh();
+        fresh.law    = &material->law();
+        fresh.radius = shape->equivalentRadius();
+    } catch (const softgrain::UserError& error) {
+        throw softgrain::UserError(whose(body.id) + ": " + error.what());
+    }
+    fresh.id         = body.id;
+    fresh.parameters = material->lawParameters();
+    fresh.density    = material->density;
+    if (nodeDisplacement.empty()) {
+        if (!pos.allFinite() || !vel.allFinite() || !angVel.allFinite())
+            throw softgrain::UserError(whose(body.id) + ": its position or velocity is not finite; give finite numbers.");
+        origin = pos.head<2>();
+        softgrain::Mat<2> spin;
+        spin << 0, -angVel[2], angVel[2], 0;
+        fresh.place(origin, ori.toRotationMatrix().topLeftCorner<2, 2>(), vel.head<2>(), spin);
+        refPos = pos;
+        refOri = ori;
+    } else {
+        const size_t expected = 2 * size_t(fresh.mesh->master_count);
+        if (format != 1 || nodeDisplacement.size() != expected || nodeVelocity.size() != expected)
+            throw softgrain::UserError(
+                    whose(body.id) + ": its saved state (format " + std::to_string(format) + ", " + std::to_string(nodeDisplacement.size())
+                    + " values) is of another version of softgrain, which expects format 1 and " + std::to_string(expected)
+                    + " values; load it with the version that saved it.");
+        fresh.origin       = origin;
+        fresh.displacement = nodeDisplacement;
+        fresh.velocity     = nodeVelocity;
+        fresh.refresh();
+    }
+    grain   = fresh;
+    mass    = grain.mass();
+    inertia = Vector3r::Constant(grain.motion.second_moment.trace());
+    publish();
+}
+
+void SoftState::publish()
+{
+    const auto& motion = grain.motion;
+    pos.head<2>()      = motion.position;
+    vel                = Vector3r(motion.velocity[0], motion.velocity[1], 0);
+    angVel             = Vector3r(0, 0, motion.angular_momentum[0] / motion.second_moment.trace());
+    // rotation of the polar decomposition in the plane
+    const auto& F = motion.mean_gradient;
+    const Real angle = std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1));
+    ori              = Quaternionr(std::cos(angle / 2), 0, 0, std::sin(angle / 2));
+}
+
+softgrain::Grain<2>& SoftState::current()
+{
+    if (!prepared())
+        throw softgrain::UserError("this SoftState belongs to no running scene yet: append its body to O.bodies and run a step first.");
+    grain.pull();
+    return grain;
+}
+
+void SoftState::preSave(SoftState&)
+{
+    if (!prepared()) return;
+    grain.pull();
+    nodeDisplacement = grain.displacement;
+    nodeVelocity     = grain.velocity;
+}
+
+boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }
+boost::python::object SoftState::pointVelocities() { return flattened(current().point_velocities()); }
+boost::python::object SoftState::deformationGradients() { return flattened(current().deformation_gradients()); }
+boost::python::object SoftState::cauchyStress() { return flattened(current().cauchy_stresses()); }
+boost::python::object SoftState::outline() { return asBytes(current().surface.position); }
+
+boost::python::object SoftState::pointVolumes()
+{
+    std::vector<double> volumes = current().mesh->point_volume;
+    for (double& volume : volumes)
+        volume *= grain.radius * grain.radius;
+    return asBytes(volumes);
+}
+
+Real SoftState::area()
+{
+    const auto F = current().deformation_gradients();
+    Real sum     = 0;
+    for (size_t p = 0; p < F.size(); ++p)
+        sum += grain.mesh->point_volume[p] * F[p].determinant();
+    return sum * grain.radius * grain.radius;
+}
+
+Real SoftState::minJ()
+{
+    Real least = std::numeric_limits<Real>::max();
+    for (const auto& F : current().deformation_gradients())
+        least = std::min(least, F.determinant());
+    return least;
+}
+
+Real SoftState::elasticEnergy() { return current().elastic_energy(); }
+Real SoftState::kineticEnergy() { return current().motion.kinetic; }
+
+} // namespace yade
