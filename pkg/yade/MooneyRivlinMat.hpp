@@ -17,8 +17,7 @@ public:
             "(c1 + 2 c2) and tr C = C11 + C22 + 1. Small strains: μ = 2 (c1 + c2), λ = 2 c + 4 c2.",
             ((Real, c1, 0.63e6, , "Coefficient of the first invariant [Pa]."))((Real, c2, -0.0012e6, , "Coefficient of the second invariant [Pa]."))(
                     (Real, c, 6e6, , "Coefficient of the volumetric energy c (J - 1)² [Pa].")),
-            createIndex(););
-    REGISTER_CLASS_INDEX(MooneyRivlinMat, SoftMat);
+            );
 };
 REGISTER_SERIALIZABLE(MooneyRivlinMat);
 

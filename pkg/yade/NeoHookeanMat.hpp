@@ -17,8 +17,7 @@ public:
             "(ln J)². Stable for μ > 0 and λ > -2/3 μ.",
             ((Real, lambda_, 61e6, , "First Lamé constant λ of the undeformed grain [Pa] (with an underscore: lambda is a word of Python)."))(
                     (Real, mu, 1.26e6, , "Shear modulus μ of the undeformed grain [Pa].")),
-            createIndex(););
-    REGISTER_CLASS_INDEX(NeoHookeanMat, SoftMat);
+            );
 };
 REGISTER_SERIALIZABLE(NeoHookeanMat);
 

@@ -9,7 +9,8 @@
 
 namespace yade {
 
-// Materials of soft grains.
+// Materials of soft grains. They share the class index of SoftMat, so that YADE dispatches on SoftMat and a new
+// material needs no new functor.
 //
 //   FrictMat
 //     SoftMat

@@ -89,8 +89,10 @@ void SoftState::publish()
     angVel             = Vector3r(0, 0, motion.angular_momentum[0] / motion.second_moment.trace());
     // rotation of the polar decomposition in the plane
     const auto& F = motion.mean_gradient;
-    const Real angle = std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1));
-    ori              = Quaternionr(std::cos(angle / 2), 0, 0, std::sin(angle / 2));
+    const Real c = F(0, 0) + F(1, 1), s = F(1, 0) - F(0, 1), size = std::sqrt(c * c + s * s);
+    const Real w = std::sqrt(std::max(0.0, (1 + c / size) / 2)); // half angle, without trigonometry
+    ori          = Quaternionr(w, 0, 0, w > 1e-3 ? s / (2 * size * w) : std::copysign(1.0, s));
+    ori.normalize();
 }
 
 softgrain::Grain<2>& SoftState::current()

@@ -29,6 +29,23 @@ SOFTGRAIN_INLINE double larger(double a, double b) { return a > b ? a : b; }
 SOFTGRAIN_INLINE Lanes8 smaller(const Lanes8& a, const Lanes8& b) { return a < b ? a : b; }
 SOFTGRAIN_INLINE Lanes8 larger(const Lanes8& a, const Lanes8& b) { return a > b ? a : b; }
 
+/// 1 / x of several values with one division, which costs as much as a dozen multiplications.
+template <int Count, class T> SOFTGRAIN_INLINE void reciprocals(const T* x, T* result)
+{
+    T product[Count];
+    product[0] = x[0];
+#pragma GCC unroll 16
+    for (int i = 1; i < Count; ++i)
+        product[i] = product[i - 1] * x[i];
+    T rest = 1.0 / product[Count - 1];
+#pragma GCC unroll 16
+    for (int i = Count - 1; i > 0; --i) {
+        result[i] = rest * product[i - 1];
+        rest *= x[i];
+    }
+    result[0] = rest;
+}
+
 SOFTGRAIN_INLINE double square_root(double x) { return std::sqrt(x); }
 SOFTGRAIN_INLINE Lanes8 square_root(const Lanes8& x)
 {

@@ -10,6 +10,8 @@ namespace {
 
     /// Distance that neighbour lists look ahead of the reach [size of the smaller body].
     constexpr double skin = 0.1;
+    /// A gap along the interpolated normal shrinks by little more than the bodies move.
+    constexpr double safe_share = 0.8;
 
     /// Forces of the last step go to the same points; both lists are in the same order.
     template <int Dim>
@@ -42,7 +44,7 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
         const Projection at = project(other, x, nearest_vertex(other, x));
-        if (at.gap < margin) found.push_back({ p, at.segment });
+        if (at.gap < margin) found.push_back({ p, at.segment, 0 });
     }
 }
 
@@ -57,27 +59,33 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
         search(large, small, true, near + ahead, near_[1]);
         valid_until_ = first.travel + second.travel + ahead;
     }
-    std::vector<ContactPoint<Dim>> fresh;
+    if (near_[0].empty() && near_[1].empty() && points.empty()) return;
+    const double travel = first.travel + second.travel;
+    thread_local std::vector<ContactPoint<Dim>> fresh; // keeps its room from pair to pair
+    fresh.clear();
     for (bool on_second : { false, true }) {
         const bool mine_small = on_second == second_smaller;
         const Surface<Dim>&mine = on_second ? second : first, &other = on_second ? first : second;
         for (Candidate& candidate : near_[mine_small ? 0 : 1]) {
+            if (travel + near < candidate.clear_until) continue;
             const Projection at = project(other, mine.x(candidate.point), candidate.face);
             candidate.face = at.segment;
+            candidate.clear_until = travel + safe_share * at.gap;
             if (at.gap >= near) continue;
             fresh.push_back({ candidate.point, on_second, at.segment,
                               { at.segment, (at.segment + 1) % other.count }, { 1 - at.t, at.t }, at.normal, at.gap });
         }
     }
     carry_forces(points, fresh);
-    points.swap(fresh);
+    points.assign(fresh.begin(), fresh.end());
 }
 
 template <int Dim>
 void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt)
 {
     const double near = reach(grain, plane_speed, dt);
-    std::vector<ContactPoint<Dim>> fresh;
+    thread_local std::vector<ContactPoint<Dim>> fresh;
+    fresh.clear();
     const double closest = side > 0 ? grain.min[axis] - position : position - grain.max[axis];
     near_ = closest < near + skin * grain.size;
     if (closest < near)
@@ -86,7 +94,7 @@ void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double posi
             if (gap < near) fresh.push_back({ p, false, 0, {}, {}, side * Vec<Dim>::Unit(axis), gap });
         }
     carry_forces(points, fresh);
-    points.swap(fresh);
+    points.assign(fresh.begin(), fresh.end());
 }
 
 template double reach<2>(const Surface<2>&, double, double);

@@ -39,11 +39,12 @@ public:
 private:
     struct Candidate {
         int point, face;
+        double clear_until; ///< total travel of both bodies up to which the point is out of touch by its last gap [m]
     };
     void search(const Surface<Dim>& mine, const Surface<Dim>& other, bool corners_only, double margin,
                 std::vector<Candidate>& found) const;
     std::array<std::vector<Candidate>, 2> near_; ///< points of the smaller body, corners of the larger
-    double valid_until_ = -1; ///< total travel of both bodies up to which `near_` is complete [m]
+    double valid_until_ = -1; ///< total travel up to which `near_` is complete [m]
 };
 
 template <int Dim> class PlaneContacts {

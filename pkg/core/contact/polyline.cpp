@@ -33,7 +33,7 @@ namespace {
             const Vec<2> q = x - start, n0 = outward(tangent_start), turn = outward(tangent_end) - n0;
             const double a = cross(q, n0), b = cross(q, turn) - cross(chord, n0), c = -cross(chord, turn);
             double t = q.dot(chord) / chord.squaredNorm();
-            for (int i = 0; i < 3; ++i) {
+            for (int i = 0; i < 2; ++i) {
                 const double slope = b + 2 * c * t;
                 if (slope == 0) break;
                 t -= (a + t * (b + c * t)) / slope;

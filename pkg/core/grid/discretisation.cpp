@@ -151,6 +151,8 @@ template <int Dim> Discretisation<Dim>::Discretisation(const Outline<Dim>& outli
     place_points(cells);
     place_surface(outline, cells, resolution.surface_spacing * cell_width);
     bind_slaves(resolution.node_threshold * std::pow(cell_width, Dim));
+    for (double mass : node_mass)
+        inverse_mass.push_back(1 / mass);
     average_gradients();
     build_delassus();
 }
@@ -252,6 +254,7 @@ template <int Dim> void Discretisation<Dim>::bind_slaves(double threshold)
     // A slave is the linear extrapolation of near masters with the least weighted coefficients: c = W A G a,
     // G = (A' W A)^-1, A the rows (1, x - x_slave), a = (1, 0 ...): the moving-least-squares value at the slave.
     node_mass.assign(masses.begin(), masses.begin() + master_count);
+    slave_row.push_back(0);
     for (int s = master_count; s < node_count(); ++s) {
         for (double reach = 2.3; ; reach += 1) {
             std::vector<int> near;
@@ -276,9 +279,10 @@ template <int Dim> void Discretisation<Dim>::bind_slaves(double threshold)
                 = W.asDiagonal() * A * solver.solve(Eigen::VectorXd::Unit(Dim + 1, 0));
             for (size_t k = 0; k < near.size(); ++k) {
                 if (std::abs(weights[k]) < 1e-14) continue;
-                links.push_back({ s, near[k], weights[k] });
+                links.push_back({ near[k], weights[k] });
                 node_mass[near[k]] += weights[k] * masses[s];
             }
+            slave_row.push_back(int(links.size()));
             break;
         }
     }
@@ -293,9 +297,10 @@ template <int Dim> void Discretisation<Dim>::average_gradients()
                 for (int d = 0; d < Dim; ++d)
                     all[size_t(Dim) * block.node[k] + d]
                         += point_volume[p] / moments.volume * gradient[(size_t(p) * stencil + k) * Dim + d];
-    for (const Link& link : links)
+    each_link([&](int slave, int master, double weight) {
         for (int d = 0; d < Dim; ++d)
-            all[size_t(Dim) * link.master + d] += link.weight * all[size_t(Dim) * link.slave + d];
+            all[size_t(Dim) * master + d] += weight * all[size_t(Dim) * slave + d];
+    });
     mean_gradient.assign(all.begin(), all.begin() + size_t(Dim) * master_count);
 }
 
@@ -309,8 +314,9 @@ template <int Dim> void Discretisation<Dim>::build_delassus()
             const double weight = surface_stencil[p].weight[k];
             if (node < master_count) folded[p][node] += weight;
             else
-                for (const Link& link : links)
-                    if (link.slave == node) folded[p][link.master] += weight * link.weight;
+                each_link([&](int slave, int master, double share) {
+                    if (slave == node) folded[p][master] += weight * share;
+                });
         }
     delassus_row.push_back(0);
     for (int p = 0; p < surface_count(); ++p) {

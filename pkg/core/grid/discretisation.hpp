@@ -34,13 +34,22 @@ public:
     int master_count;
     std::vector<Vec<Dim>> node_position;
     std::vector<double> node_mass; ///< lumped, masters only; sums to `moments.volume` (unit density)
+    std::vector<double> inverse_mass;
     std::vector<double> mean_gradient; ///< [master][Dim], mean over the grain of the shape functions' gradients
     struct Link {
-        int slave, master;
+        int master;
         double weight;
     };
-    std::vector<Link> links;
+    std::vector<Link> links;     ///< of all slaves, one slave after the other
+    std::vector<int> slave_row;  ///< first link of each slave, and the number of links
     int node_count() const { return int(node_position.size()); }
+    /// Calls visit(slave, master, weight) for every link.
+    template <class Visit> void each_link(const Visit& visit) const
+    {
+        for (int s = 0; s + 1 < int(slave_row.size()); ++s)
+            for (int k = slave_row[s]; k < slave_row[s + 1]; ++k)
+                visit(master_count + s, links[k].master, links[k].weight);
+    }
 
     // Material points, ordered by region and by block. A block's points share their nodes. A region is the
     // set of points that share one volume change (mean dilatation).

@@ -16,7 +16,7 @@ struct MooneyRivlin {
     {
         return p[2] * (J - 1.0) * (J - 1.0);
     }
-    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J) { return 2.0 * p[2] * (J - 1.0); }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T&) { return 2.0 * p[2] * (J - 1.0); }
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
     {
@@ -30,11 +30,11 @@ struct MooneyRivlin {
             - 2.0 * (p[0] + 2.0 * p[1]) * logarithm(determinant(F));
     }
     template <int Dim, class T>
-    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& J, Tensor<Dim, T>& P)
+    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& inverse_J, Tensor<Dim, T>& P)
     {
         const Tensor<Dim, T> C = right_cauchy_green(F);
         const T a = 2.0 * (p[0] + p[1] * first_invariant(F)), b = 2.0 * p[1];
-        const T k = 2.0 * (p[0] + 2.0 * p[1]) / J;
+        const T k = 2.0 * (p[0] + 2.0 * p[1]) * inverse_J;
         for (int i = 0; i < Dim; ++i)
             for (int j = 0; j < Dim; ++j) {
                 T FC = F.at[i][0] * C.at[0][j];

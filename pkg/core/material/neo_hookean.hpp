@@ -16,16 +16,19 @@ struct NeoHookean {
         const T log_J = logarithm(J);
         return 0.5 * p[0] * log_J * log_J;
     }
-    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J) { return p[0] * logarithm(J) / J; }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T& inverse_J)
+    {
+        return p[0] * logarithm(J) * inverse_J;
+    }
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
     {
         return p[1] * (0.5 * (first_invariant(F) - 3.0) - logarithm(determinant(F)));
     }
     template <int Dim, class T>
-    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& J, Tensor<Dim, T>& P)
+    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& inverse_J, Tensor<Dim, T>& P)
     {
-        const T k = p[1] / J;
+        const T k = p[1] * inverse_J;
         for (int i = 0; i < Dim; ++i)
             for (int j = 0; j < Dim; ++j)
                 P.at[i][j] = p[1] * F.at[i][j] - k * cof.at[i][j];

@@ -90,12 +90,13 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
                 batch.gain[d * lanes + lane] = dt * gravity[d] / members_[b][lane]->radius;
         }
         motion_kernels<Dim>().kick[batch.wide()](batch.data(), dt, batch.gain.data());
+        const double* values = batch.surface();
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             Surface<Dim>& surface = grain.surface;
             surface.velocity_before.swap(surface.velocity);
             for (size_t i = 0; i < surface.velocity.size(); ++i)
-                surface.velocity[i] = grain.radius * batch.surface[i * lanes + lane];
+                surface.velocity[i] = grain.radius * values[i * lanes + lane];
         }
     }
     for (Grain<Dim>* grain : grains_)
@@ -112,11 +113,12 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
+        double* values = batch.surface();
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             const double unit = grain.surface.mobility / grain.radius;
             for (size_t i = 0; i < grain.surface.impulse.size(); ++i)
-                batch.surface[i * lanes + lane] = unit * grain.surface.impulse[i];
+                values[i * lanes + lane] = unit * grain.surface.impulse[i];
         }
         const auto& kernels = motion_kernels<Dim>();
         kernels.push[batch.wide()](batch.data());
@@ -131,7 +133,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
                 double v2 = 0;
                 for (int d = 0; d < Dim; ++d) {
                     const size_t i = size_t(Dim) * p + d;
-                    const double x = grain.origin[d] + grain.radius * batch.surface[i * lanes + lane];
+                    const double x = grain.origin[d] + grain.radius * values[i * lanes + lane];
                     surface.position[i] = x;
                     lo[d] = std::min(lo[d], x);
                     hi[d] = std::max(hi[d], x);
@@ -212,8 +214,8 @@ template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
         grain.law->internal_force[0](batch.data(), &min_J);
         eigenvalue = 0;
         for (int i = 0; i < size; ++i) {
-            eigenvalue -= x[i] * batch.force[i] / small;
-            x[i] = -batch.force[i] / small / grain.mesh->node_mass[i / Dim];
+            eigenvalue -= x[i] * batch.force()[i] / small;
+            x[i] = -batch.force()[i] / small / grain.mesh->node_mass[i / Dim];
         }
     }
     return 2 / std::sqrt(eigenvalue);

@@ -2,6 +2,15 @@
 #include "step/batch.hpp"
 
 namespace softgrain {
+namespace {
+
+    double* at_least(AlignedVector& room, size_t size)
+    {
+        if (room.size() < size) room.resize(size);
+        return room.data();
+    }
+
+} // namespace
 
 template <int Dim>
 Batch<Dim>::Batch(std::shared_ptr<const Discretisation<Dim>> mesh_, const LawKernels<Dim>& law_, int lanes_)
@@ -10,8 +19,6 @@ Batch<Dim>::Batch(std::shared_ptr<const Discretisation<Dim>> mesh_, const LawKer
     , lanes(lanes_)
     , displacement(size_t(mesh->node_count()) * Dim * lanes)
     , velocity(displacement.size())
-    , force(displacement.size())
-    , surface(size_t(mesh->surface_count()) * Dim * lanes)
     , parameters(size_t(max_parameters) * lanes)
     , inverse_inertia(lanes)
     , sums(size_t(MotionSums<Dim>::count) * lanes)
@@ -20,17 +27,30 @@ Batch<Dim>::Batch(std::shared_ptr<const Discretisation<Dim>> mesh_, const LawKer
 {
 }
 
+template <int Dim> double* Batch<Dim>::surface()
+{
+    thread_local AlignedVector room;
+    return at_least(room, size_t(mesh->surface_count()) * Dim * lanes);
+}
+
+template <int Dim> double* Batch<Dim>::force()
+{
+    thread_local AlignedVector room;
+    return at_least(room, displacement.size());
+}
+
 template <int Dim> KernelData<Dim> Batch<Dim>::data()
 {
     return { mesh->node_count(),
              mesh->master_count,
-             int(mesh->links.size()),
              int(mesh->regions.size()),
              mesh->surface_count(),
              mesh->node_position.data(),
              mesh->node_mass.data(),
+             mesh->inverse_mass.data(),
              mesh->mean_gradient.data(),
              mesh->links.data(),
+             mesh->slave_row.data(),
              mesh->regions.data(),
              mesh->blocks.data(),
              mesh->gradient.data(),
@@ -38,8 +58,8 @@ template <int Dim> KernelData<Dim> Batch<Dim>::data()
              mesh->surface.data(),
              displacement.data(),
              velocity.data(),
-             force.data(),
-             surface.data(),
+             force(),
+             surface(),
              parameters.data(),
              inverse_inertia.data() };
 }

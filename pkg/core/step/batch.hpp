@@ -16,11 +16,13 @@ constexpr int max_parameters = 4;
 
 /// What a kernel needs, as plain pointers.
 template <int Dim> struct KernelData {
-    int node_count, master_count, link_count, region_count, surface_count;
+    int node_count, master_count, region_count, surface_count;
     const Vec<Dim>* node_position;
     const double* node_mass;
+    const double* inverse_mass;
     const double* mean_gradient;
     const typename Discretisation<Dim>::Link* links;
+    const int* slave_row;
     const typename Discretisation<Dim>::Region* regions;
     const typename Discretisation<Dim>::Block* blocks;
     const double* gradient;
@@ -81,7 +83,11 @@ public:
     const std::shared_ptr<const Discretisation<Dim>> mesh;
     const LawKernels<Dim>& law;
     const int lanes;
-    AlignedVector displacement, velocity, force, surface, parameters, inverse_inertia, sums, gain, per_lane;
+    /// Values at the surface and forces, valid until the next batch is worked on: a thread's batches share the
+    /// room, which then stays in its cache.
+    double* surface();
+    double* force();
+    AlignedVector displacement, velocity, parameters, inverse_inertia, sums, gain, per_lane;
 
     KernelData<Dim> data();
     /// Index into the kernel tables.

@@ -54,9 +54,10 @@ template <int Dim> std::vector<double> Grain<Dim>::with_slaves(const std::vector
 {
     std::vector<double> all(field);
     all.resize(size_t(Dim) * mesh->node_count(), 0);
-    for (const auto& link : mesh->links)
+    mesh->each_link([&](int slave, int master, double weight) {
         for (int d = 0; d < Dim; ++d)
-            all[size_t(Dim) * link.slave + d] += link.weight * all[size_t(Dim) * link.master + d];
+            all[size_t(Dim) * slave + d] += weight * all[size_t(Dim) * master + d];
+    });
     return all;
 }
 
@@ -94,7 +95,7 @@ template <int Dim> void Grain<Dim>::refresh()
         surface.v(p) = speed;
         surface.speed = std::max(surface.speed, speed.norm());
         for (int d = 0; d < Dim; ++d)
-            surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface[size_t(Dim) * p + d];
+            surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface()[size_t(Dim) * p + d];
     }
     surface.bound();
 }

@@ -83,9 +83,15 @@ namespace {
     template <int Dim, class T> SOFTGRAIN_INLINE void fold(const KernelData<Dim>& data, double* field)
     {
         T* f = lanes_of<T>(field);
-        for (int k = 0; k < data.link_count; ++k)
+        for (int s = 0; s < data.node_count - data.master_count; ++s) {
+            T held[Dim];
             for (int d = 0; d < Dim; ++d)
-                f[Dim * data.links[k].master + d] += data.links[k].weight * f[Dim * data.links[k].slave + d];
+                held[d] = f[Dim * (data.master_count + s) + d];
+            for (int k = data.slave_row[s]; k < data.slave_row[s + 1]; ++k)
+#pragma GCC unroll 3
+                for (int d = 0; d < Dim; ++d)
+                    f[Dim * data.links[k].master + d] += data.links[k].weight * held[d];
+        }
     }
 
     /// Slaves take the extrapolation of their masters. A slave at X carries X + u, so that u is extrapolated
@@ -93,11 +99,15 @@ namespace {
     template <int Dim, class T> SOFTGRAIN_INLINE void extend(const KernelData<Dim>& data, double* field)
     {
         T* f = lanes_of<T>(field);
-        for (int i = Dim * data.master_count; i < Dim * data.node_count; ++i)
-            f[i] = T {};
-        for (int k = 0; k < data.link_count; ++k)
+        for (int s = 0; s < data.node_count - data.master_count; ++s) {
+            T sum[Dim] {};
+            for (int k = data.slave_row[s]; k < data.slave_row[s + 1]; ++k)
+#pragma GCC unroll 3
+                for (int d = 0; d < Dim; ++d)
+                    sum[d] += data.links[k].weight * f[Dim * data.links[k].master + d];
             for (int d = 0; d < Dim; ++d)
-                f[Dim * data.links[k].slave + d] += data.links[k].weight * f[Dim * data.links[k].master + d];
+                f[Dim * (data.master_count + s) + d] = sum[d];
+        }
     }
 
     template <int Dim, class T> SOFTGRAIN_INLINE void interpolate(const KernelData<Dim>& data, const double* field)
@@ -106,13 +116,16 @@ namespace {
         T* s = lanes_of<T>(data.surface);
         for (int p = 0; p < data.surface_count; ++p) {
             const auto& entry = data.surface_stencil[p];
+            T even[Dim] {}, odd[Dim] {}; // two sums, so that one need not wait for the other
+            for (int k = 0; k < power(3, Dim) - 1; k += 2)
 #pragma GCC unroll 3
-            for (int d = 0; d < Dim; ++d) {
-                T sum {};
-                for (int k = 0; k < power(3, Dim); ++k)
-                    sum += entry.weight[k] * f[Dim * entry.node[k] + d];
-                s[Dim * p + d] = sum;
-            }
+                for (int d = 0; d < Dim; ++d) {
+                    even[d] += entry.weight[k] * f[Dim * entry.node[k] + d];
+                    odd[d] += entry.weight[k + 1] * f[Dim * entry.node[k + 1] + d];
+                }
+            constexpr int last = power(3, Dim) - 1;
+            for (int d = 0; d < Dim; ++d)
+                s[Dim * p + d] = even[d] + odd[d] + entry.weight[last] * f[Dim * entry.node[last] + d];
         }
     }
 
@@ -131,20 +144,22 @@ namespace {
             const auto& region = data.regions[r];
             Tensor<Dim, T> F[points];
             deform<Dim, T>(data, region, F);
-            T J[points], mean {};
+            T J[points + 1], inverse_J[points + 1], sum {}; // the last: mean J of the region
 #pragma GCC unroll 8
             for (int q = 0; q < points; ++q) {
                 J[q] = determinant(F[q]);
-                mean += J[q];
+                sum += J[q];
                 smallest = smaller(J[q], smallest);
             }
-            const T slope = Law::volumetric_slope(p, mean * (1.0 / points));
+            J[points] = sum * (1.0 / points);
+            reciprocals<points + 1>(J, inverse_J);
+            const T slope = Law::volumetric_slope(p, J[points], inverse_J[points]);
             const double volume = -region.volume / points;
 #pragma GCC unroll 8
             for (int q = 0; q < points; ++q) {
                 const Tensor<Dim, T> cof = cofactor(F[q]);
                 Tensor<Dim, T> P;
-                Law::template stress<Dim, T>(p, F[q], cof, J[q], P);
+                Law::template stress<Dim, T>(p, F[q], cof, inverse_J[q], P);
 #pragma GCC unroll 3
                 for (int i = 0; i < Dim; ++i)
 #pragma GCC unroll 3
@@ -192,9 +207,9 @@ namespace {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 F.at[i][j] = deformation(i, j);
-        const double J = determinant(F), slope = Law::volumetric_slope(p, mean_J);
+        const double J = determinant(F), slope = Law::volumetric_slope(p, mean_J, 1 / mean_J);
         const Tensor<3, double> cof = cofactor(F);
-        Law::template stress<3, double>(p, F, cof, J, P);
+        Law::template stress<3, double>(p, F, cof, 1 / J, P);
         Mat<3> first_piola;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
@@ -208,7 +223,7 @@ namespace {
         const T* f = lanes_of<T>(data.force);
         const T scale = dt * *lanes_of<T>(data.inverse_inertia);
         for (int i = 0; i < data.master_count; ++i) {
-            const T k = scale * (1 / data.node_mass[i]);
+            const T k = scale * data.inverse_mass[i];
 #pragma GCC unroll 3
             for (int d = 0; d < Dim; ++d)
                 v[Dim * i + d] += k * f[Dim * i + d] + lanes_of<T>(gain)[d];
@@ -234,7 +249,7 @@ namespace {
         for (int i = 0; i < data.master_count; ++i)
 #pragma GCC unroll 3
             for (int d = 0; d < Dim; ++d)
-                v[Dim * i + d] += (1 / data.node_mass[i]) * f[Dim * i + d];
+                v[Dim * i + d] += data.inverse_mass[i] * f[Dim * i + d];
     }
 
     template <int Dim, class T> SOFTGRAIN_INLINE void drift(const KernelData<Dim>& data, double dt)
