@@ -280,7 +280,7 @@ void SoftIntegrator::requestCollider() const
 void SoftIntegrator::evaluate()
 {
     if (!assembly_) return;
-    assembly_->evaluate_energy(threads());
+    assembly_->evaluate_energy(scene->dt, threads());
     criticalStep = std::numeric_limits<Real>::max();
     for (SoftState* state : states_)
         criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));

@@ -173,13 +173,18 @@ template <int Dim> void Assembly<Dim>::account(const std::vector<Contact<Dim>>& 
     }
 }
 
-template <int Dim> void Assembly<Dim>::evaluate_energy(int threads)
+template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
 {
     const int count = int(batches_.size());
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
-        batch.law.energy[batch.wide()](batch.data(), batch.per_lane.data(), batch.per_lane.data() + batch.lanes);
+        KernelData<Dim> data = batch.data();
+        std::copy(batch.displacement.begin(), batch.displacement.end(), data.force);
+        data.displacement = data.force;
+        motion_kernels<Dim>().drift[batch.wide()](data, -dt / 2);
+        motion_kernels<Dim>().extend[batch.wide()](data);
+        batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + batch.lanes);
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             grain.elastic = std::pow(grain.radius, Dim) * batch.per_lane[lane];

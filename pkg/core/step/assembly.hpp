@@ -34,8 +34,9 @@ public:
     void correct(double dt, int threads);
     /// Work of the solved contacts over the step, with the mean of the velocities before and after it.
     static void account(const std::vector<Contact<Dim>>& contacts, EnergyBalance& balance);
-    /// Elastic energies and smallest stretches of the grains.
-    void evaluate_energy(int threads);
+    /// Elastic energies and smallest stretches of the grains, half a step back: velocities stand half a step
+    /// behind displacements, and the energy balance closes to second order only at one instant.
+    void evaluate_energy(double dt, int threads);
 
     const std::vector<Grain<Dim>*>& grains() const { return grains_; }
 

@@ -67,7 +67,9 @@ template <int Dim> struct MotionKernels {
     void (*push[2])(const KernelData<Dim>&);
     /// u += dt v.
     void (*drift[2])(const KernelData<Dim>&, double dt);
-    /// Slave displacements; surface positions into `surface`; motion sums [count][lane] into `sums`.
+    /// Displacements of the slaves.
+    void (*extend[2])(const KernelData<Dim>&);
+    /// Displacements of the slaves; surface positions into `surface`; motion sums [count][lane] into `sums`.
     void (*observe[2])(const KernelData<Dim>&, double* sums);
 };
 

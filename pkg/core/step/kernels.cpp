@@ -309,6 +309,10 @@ namespace {
     {                                                                                                                  \
         drift<Dim, T>(data, dt);                                                                                       \
     }                                                                                                                  \
+    SOFTGRAIN_MULTIVERSION void extend_##Dim##_##lanes(const KernelData<Dim>& data)                                    \
+    {                                                                                                                  \
+        extend<Dim, T>(data, data.displacement);                                                                       \
+    }                                                                                                                  \
     SOFTGRAIN_MULTIVERSION void observe_##Dim##_##lanes(const KernelData<Dim>& data, double* sums)                     \
     {                                                                                                                  \
         observe<Dim, T>(data, sums);                                                                                   \
@@ -336,7 +340,11 @@ namespace {
 
     SOFTGRAIN_MOTION(2, 1, double)
     SOFTGRAIN_MOTION(2, 8, Lanes8)
-    const MotionKernels<2> motion_2 { { kick_2_1, kick_2_8 }, { push_2_1, push_2_8 }, { drift_2_1, drift_2_8 }, { observe_2_1, observe_2_8 } };
+    const MotionKernels<2> motion_2 { { kick_2_1, kick_2_8 },
+                                      { push_2_1, push_2_8 },
+                                      { drift_2_1, drift_2_8 },
+                                      { extend_2_1, extend_2_8 },
+                                      { observe_2_1, observe_2_8 } };
 
     SOFTGRAIN_LAW(NeoHookean, 2)
     SOFTGRAIN_LAW(MooneyRivlin, 2)
