@@ -24,4 +24,4 @@ done
 
 install_missing "${needed[@]}"
 build_plugin _softgrain softgrain_python
-exec yade -n -j"$threads" -x "$root/examples/$name" "$@"
+exec yade -n -j"$threads" -x -- "$root/examples/$name" "$@" # after -- the options are the script's

@@ -69,13 +69,14 @@ void SoftIntegrator::action()
     fresh_ = false;
     watch.stage(1);
 
-    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps }.solve(contacts_);
+    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps }.solve(problem_);
     totalIterations += iterations;
-    contactCount = int(contacts_.size());
+    contactCount = int(problem_.contacts.size());
+    contactIterations += Real(iterations) * contactCount;
     watch.stage(2);
 
     softgrain::EnergyBalance balance;
-    softgrain::Assembly<2>::account(contacts_, balance);
+    softgrain::Assembly<2>::account(problem_, balance);
     for (SoftState* state : states_) {
         balance.external_work += dt * state->mass * gravity.dot(state->vel);
         std::fill(state->grain.surface.impulse.begin(), state->grain.surface.impulse.end(), 0.0);
@@ -115,19 +116,23 @@ void SoftIntegrator::adopt()
     assembly_.reset();
     bodies_.clear();
     states_.clear();
+    place_.clear();
     std::vector<softgrain::Grain<2>*> grains;
     for (const auto& body : *scene->bodies) {
         SoftState* state = softStateOf(*body);
         if (!state) continue;
         fresh_ |= !state->prepared() || scene->iter == body->iterBorn;
         state->prepare(*body);
+        place_.resize(size_t(body->id) + 1, -1);
+        place_[body->id] = int(states_.size());
         bodies_.push_back(body);
         states_.push_back(state);
         grains.push_back(&state->grain);
     }
     if (grains.empty()) return;
     assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
-    contacts_.clear();
+    problem_  = {};
+    pairs_.clear();
     evaluate();
 }
 
@@ -165,6 +170,9 @@ void SoftIntegrator::requireFunctors() const
 void SoftIntegrator::gatherPairs()
 {
     pairs_.clear();
+    problem_.bodies.clear();
+    for (SoftState* state : states_)
+        problem_.bodies.push_back(&state->grain.surface);
     const int geomIndex = SoftGeom::getClassIndexStatic();
     for (const auto& body : bodies_)
         for (const auto& [otherId, interaction] : body->intrs) {
@@ -179,33 +187,45 @@ void SoftIntegrator::gatherPairs()
             const bool isFirst    = interaction->id1 == body->id;
             SoftState* const one  = isFirst ? state : otherState;
             SoftState* const two  = isFirst ? otherState : state;
-            pairs_.push_back({ interaction->id1, interaction->id2, std::move(geom), std::move(phys), one, two, otherState ? nullptr : other->state.get() });
+            int body1 = -1;
+            if (one) body1 = place_[interaction->id1];
+            else if (!geom->withPlane) {
+                body1 = int(problem_.bodies.size());
+                problem_.bodies.push_back(&geom->rigid);
+            }
+            pairs_.push_back(
+                    { interaction->id1,
+                      interaction->id2,
+                      std::move(geom),
+                      std::move(phys),
+                      one,
+                      two,
+                      otherState ? nullptr : other->state.get(),
+                      body1,
+                      place_[interaction->id2] });
         }
 }
 
 void SoftIntegrator::pose(double dt)
 {
-    contacts_.clear();
-    for (const Pair& pair : pairs_) {
-        softgrain::Surface<2>* first  = pair.first ? &pair.first->grain.surface : pair.geom->withPlane ? nullptr : &pair.geom->rigid;
-        softgrain::Surface<2>* second = &pair.second->grain.surface;
+    problem_.contacts.clear();
+    for (const Pair& pair : pairs_)
         for (const auto& point : pair.geom->points()) {
             softgrain::Contact<2> contact;
-            contact.body      = pair.geom->withPlane || point.on_second ? second : first;
-            contact.other     = point.on_second ? first : pair.geom->withPlane ? nullptr : second;
+            contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
+            contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
             contact.point     = point.point;
             contact.vertex    = point.vertex;
             contact.weight    = point.weight;
             contact.normal    = point.normal;
-            contact.gap_speed = point.gap / dt;
+            contact.gap_speed = (point.gap > 0 ? point.gap : recovery * point.gap) / dt;
             contact.drive     = softgrain::Vec<2>::Zero();
-            if (pair.rigid && pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
+            if (pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
             contact.friction = pair.phys->friction;
             contact.law      = pair.phys->law;
             contact.impulse  = dt * point.force;
-            contacts_.push_back(contact);
+            problem_.contacts.push_back(contact);
         }
-    }
 }
 
 /// New grains must not overlap: contact would throw them apart.
@@ -229,21 +249,22 @@ void SoftIntegrator::deliver(double dt)
         softgrain::Vec<2> normal = softgrain::Vec<2>::Zero(), shear = normal, place = normal;
         Real weight = 0, moment = 0;
         for (auto& point : pair.geom->points()) {
-            const auto& contact = contacts_[index++];
+            const auto& contact = problem_.contacts[index++];
             point.force         = contact.impulse / dt;
             if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
+            auto& body = *problem_.bodies[contact.body];
             for (int d = 0; d < 2; ++d) {
-                contact.body->impulse[2 * contact.point + d] += contact.impulse[d];
-                if (contact.other)
+                body.impulse[2 * contact.point + d] += contact.impulse[d];
+                if (contact.other >= 0)
                     for (int k = 0; k < 2; ++k)
-                        contact.other->impulse[2 * contact.vertex[k] + d] -= contact.weight[k] * contact.impulse[d];
+                        problem_.bodies[contact.other]->impulse[2 * contact.vertex[k] + d] -= contact.weight[k] * contact.impulse[d];
             }
             // on body id2
-            const bool onSecond               = contact.body == &pair.second->grain.surface;
-            const softgrain::Vec<2> force     = onSecond ? point.force : softgrain::Vec<2>(-point.force);
-            const softgrain::Vec<2> along     = force.dot(point.normal) * point.normal;
-            const softgrain::Vec<2> where     = contact.body->x(contact.point);
-            const Real size                   = along.norm();
+            const bool onSecond           = contact.body == pair.body2;
+            const softgrain::Vec<2> force = onSecond ? point.force : softgrain::Vec<2>(-point.force);
+            const softgrain::Vec<2> along = force.dot(point.normal) * point.normal;
+            const softgrain::Vec<2> where = body.x(contact.point);
+            const Real size               = along.norm();
             normal += along;
             shear += force - along;
             place += size * where;
@@ -279,6 +300,7 @@ void SoftIntegrator::requestCollider() const
 
 void SoftIntegrator::evaluate()
 {
+    adopt();
     if (!assembly_) return;
     assembly_->evaluate_energy(scene->dt, threads());
     criticalStep = std::numeric_limits<Real>::max();
@@ -342,7 +364,7 @@ Real SoftIntegrator::maxPenetration() const
     return deepest;
 }
 
-Real SoftIntegrator::residual() const { return softgrain::contact_residual(contacts_); }
+Real SoftIntegrator::residual() const { return problem_.residual(); }
 
 boost::python::list SoftIntegrator::contacts() const
 {

@@ -39,6 +39,12 @@ public:
             "bodies. Reactions on walls and boxes are in O.forces after the step. 2D: forces, energies and masses are per metre of thickness.",
             ((Vector3r, gravity, Vector3r::Zero(), , "Acceleration of all soft grains [m/s²]; its z component has to be 0."))(
                     (Real, tolerance, 1e-3, , "The contact solver stops when a sweep changes the impulses by less than this, relative [-]."))(
+                    (Real,
+                     recovery,
+                     0.2,
+                     ,
+                     "Share of a penetration that the contact law takes back in one step [-]. Penetrations are errors of the discrete surfaces, of "
+                     "about 1e-4 radii; taken back at once (1) they would feed energy in."))(
                     (int, maxSweeps, 1000, , "Most sweeps of the contact solver in a step [-]."))(
                     (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
                     (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
@@ -47,6 +53,7 @@ public:
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
                     (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
+                    (Real, contactIterations, 0, Attr::readonly, "Local contact problems solved since the start: contact points times sweeps [-]."))(
                     (int, contactCount, 0, Attr::readonly, "Contact points in the last step's contact problem [-]."))(
                     (vector<Real>,
                      stageSeconds,
@@ -76,6 +83,7 @@ private:
         SoftState* first; ///< null: a rigid body
         SoftState* second;
         const State* rigid;
+        int body1, body2; ///< places in the contact problem; body1 -1: a plane
     };
     void adopt();
     void requireFunctors() const;
@@ -89,9 +97,10 @@ private:
 
     std::vector<shared_ptr<Body>> bodies_;
     std::vector<SoftState*> states_;
+    std::vector<int> place_; ///< of a body, by id, among the soft ones
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
     std::vector<Pair> pairs_;
-    std::vector<softgrain::Contact<2>> contacts_;
+    softgrain::ContactProblem<2> problem_;
     bool fresh_ = true;
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };

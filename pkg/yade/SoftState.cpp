@@ -74,6 +74,8 @@ void SoftState::prepare(const Body& body)
         fresh.displacement = nodeDisplacement;
         fresh.velocity     = nodeVelocity;
         fresh.refresh();
+        fresh.elastic_energy();
+        if (outlineRise.size() == fresh.surface.rise.size()) fresh.surface.rise = outlineRise;
     }
     grain   = fresh;
     mass    = grain.mass();
@@ -109,6 +111,7 @@ void SoftState::preSave(SoftState&)
     grain.pull();
     nodeDisplacement = grain.displacement;
     nodeVelocity     = grain.velocity;
+    outlineRise      = grain.surface.rise;
 }
 
 boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }

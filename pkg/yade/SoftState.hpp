@@ -39,6 +39,7 @@ public:
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(
+                    (vector<Real>, outlineRise, , Attr::hidden, "Slopes of the smoothed outline, [surface segment] [-]."))(
                     (int, format, 1, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),
             .def("pointPositions", &SoftState::pointPositions, "Current positions of the material points, (points, 2) [m].")

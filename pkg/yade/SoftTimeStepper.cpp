@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SoftTimeStepper.hpp"
 
+#include "Problems.hpp"
 #include "SoftIntegrator.hpp"
 
 #include <map>
@@ -23,6 +24,7 @@ Real SoftTimeStepper::criticalStepOf(const softgrain::Grain<2>& grain)
 
 void SoftTimeStepper::computeTimeStep(Scene* scene)
 {
+    Problems::raise();
     if (!(safety > 0 && safety < 1))
         throw std::runtime_error("SoftTimeStepper: safety = " + softgrain::shown(safety) + " has to lie between 0 and 1.");
     for (const auto& engine : scene->engines)

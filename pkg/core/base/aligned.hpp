@@ -7,7 +7,7 @@
 
 namespace softgrain {
 
-/// Allocates on 64-byte boundaries, as Lanes8 asks.
+/// Allocates on 64-byte boundaries, as the widest Lanes ask.
 template <class T> struct AlignedAllocator {
     using value_type = T;
     AlignedAllocator() = default;

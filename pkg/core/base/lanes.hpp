@@ -6,28 +6,26 @@
 #include <cmath>
 #include <cstdint>
 
-/// Compiles a function once for every instruction set below and picks one when the program starts.
-#define SOFTGRAIN_MULTIVERSION __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-/// What a multiversioned function calls has to be inlined into it to be compiled for its instruction set.
+/// Kernels are inlined into one function for every instruction set, to be compiled for it.
 #define SOFTGRAIN_INLINE inline __attribute__((always_inline))
 
 namespace softgrain {
 
-typedef double Lanes8 __attribute__((vector_size(64), aligned(64)));
-typedef std::int64_t Integers8 __attribute__((vector_size(64), aligned(64)));
+/// Values of 2, 4 or 8 grains: the native vectors of SSE2, AVX2 and AVX-512. (Wider vectors than native ones are
+/// taken to pieces by the compiler, number by number.)
+template <int Count> struct Lanes {
+    typedef double Value __attribute__((vector_size(8 * Count), aligned(8 * Count)));
+    typedef std::int64_t Bits __attribute__((vector_size(8 * Count), aligned(8 * Count)));
+};
+template <> struct Lanes<1> {
+    typedef double Value;
+};
 
 template <class T> constexpr int lane_count = int(sizeof(T) / sizeof(double));
 
-SOFTGRAIN_INLINE double& lane(double& value, int) { return value; }
-SOFTGRAIN_INLINE double lane(const double& value, int) { return value; }
-SOFTGRAIN_INLINE double lane(const Lanes8& value, int index) { return value[index]; }
-
 template <class T> SOFTGRAIN_INLINE T broadcast(double value) { return T {} + value; }
-
-SOFTGRAIN_INLINE double smaller(double a, double b) { return a < b ? a : b; }
-SOFTGRAIN_INLINE double larger(double a, double b) { return a > b ? a : b; }
-SOFTGRAIN_INLINE Lanes8 smaller(const Lanes8& a, const Lanes8& b) { return a < b ? a : b; }
-SOFTGRAIN_INLINE Lanes8 larger(const Lanes8& a, const Lanes8& b) { return a > b ? a : b; }
+template <class T> SOFTGRAIN_INLINE T smaller(const T& a, const T& b) { return a < b ? a : b; }
+template <class T> SOFTGRAIN_INLINE T larger(const T& a, const T& b) { return a > b ? a : b; }
 
 /// 1 / x of several values with one division, which costs as much as a dozen multiplications.
 template <int Count, class T> SOFTGRAIN_INLINE void reciprocals(const T* x, T* result)
@@ -46,23 +44,26 @@ template <int Count, class T> SOFTGRAIN_INLINE void reciprocals(const T* x, T* r
     result[0] = rest;
 }
 
-SOFTGRAIN_INLINE double square_root(double x) { return std::sqrt(x); }
-SOFTGRAIN_INLINE Lanes8 square_root(const Lanes8& x)
+template <class T> SOFTGRAIN_INLINE T square_root(const T& x)
 {
-    Lanes8 root;
-    for (int l = 0; l < 8; ++l)
-        root[l] = __builtin_sqrt(x[l]);
-    return root;
+    if constexpr (lane_count<T> == 1) return std::sqrt(x);
+    else {
+        T root;
+        for (int l = 0; l < lane_count<T>; ++l)
+            root[l] = __builtin_sqrt(x[l]);
+        return root;
+    }
 }
 
 /// Natural logarithm of positive normal numbers, good to 2 units in the last place; anything else gives a
 /// number without meaning, so callers test their argument (see StepMonitor).
 ///
 /// x = m 2^e with m in [sqrt(1/2), sqrt(2)); ln m = 2 atanh(s), s = (m - 1) / (m + 1), by its series in s^2.
-template <class T, class I> SOFTGRAIN_INLINE T logarithm_of_positive(const T& x)
+template <class T> SOFTGRAIN_INLINE T logarithm(const T& x)
 {
-    const I bits = (I)x;
-    const I exponent = ((bits - 0x3fe6a09e667f3bcdLL) >> 52);
+    using Bits = typename Lanes<lane_count<T>>::Bits;
+    const Bits bits = (Bits)x;
+    const Bits exponent = ((bits - 0x3fe6a09e667f3bcdLL) >> 52);
     const T m = (T)(bits - (exponent << 52));
     // integers below 2^51 become doubles through the mantissa of 1.5 * 2^52
     const T e = (T)(exponent + 0x4338000000000000LL) - 6755399441055744.0;
@@ -80,7 +81,6 @@ template <class T, class I> SOFTGRAIN_INLINE T logarithm_of_positive(const T& x)
     return e * 0.69314718055994530942 + 2.0 * (s + s * z * p);
 }
 
-SOFTGRAIN_INLINE Lanes8 logarithm(const Lanes8& x) { return logarithm_of_positive<Lanes8, Integers8>(x); }
-SOFTGRAIN_INLINE double logarithm(double x) { return std::log(x); }
+template <> SOFTGRAIN_INLINE double logarithm(const double& x) { return std::log(x); }
 
 } // namespace softgrain

@@ -11,27 +11,27 @@ namespace {
     /// Turned by -90 degrees: outward from a counter-clockwise boundary.
     Vec<2> outward(const Vec<2>& along) { return Vec<2>(along.y(), -along.x()); }
 
+    /// One segment with the parabola over it.
     struct Segment {
         Vec<2> start, chord;
-        Vec<2> tangent_start, tangent_end; ///< of the smoothed boundary, as long as the chord or so
+        Vec<2> normal_start, normal_end; ///< of the parabola, as long as the chord or so
+        double rise;
 
         Segment(const Surface<2>& polyline, int index)
+            : start(polyline.x(index))
+            , chord(polyline.x(index + 1 == polyline.count ? 0 : index + 1) - start)
+            , normal_start(outward(chord) - polyline.rise[index] * chord)
+            , normal_end(outward(chord) + polyline.rise[index] * chord)
+            , rise(polyline.rise[index])
         {
-            const int n = polyline.count;
-            const int before = index == 0 ? n - 1 : index - 1, end = index + 1 == n ? 0 : index + 1,
-                      after = end + 1 == n ? 0 : end + 1;
-            start = polyline.x(index);
-            chord = polyline.x(end) - start;
-            tangent_start = polyline.corner[index] ? chord : Vec<2>((polyline.x(end) - polyline.x(before)) / 2);
-            tangent_end = polyline.corner[end] ? chord : Vec<2>((polyline.x(after) - start) / 2);
         }
 
         /// Root t of cross(x - start - t chord, n(t)) = 0, n linear between the end normals; Newton from the
         /// chord's own projection (the equation is quadratic with a small second-order term).
         double foot(const Vec<2>& x) const
         {
-            const Vec<2> q = x - start, n0 = outward(tangent_start), turn = outward(tangent_end) - n0;
-            const double a = cross(q, n0), b = cross(q, turn) - cross(chord, n0), c = -cross(chord, turn);
+            const Vec<2> q = x - start, turn = normal_end - normal_start;
+            const double a = cross(q, normal_start), b = cross(q, turn) - cross(chord, normal_start), c = -cross(chord, turn);
             double t = q.dot(chord) / chord.squaredNorm();
             for (int i = 0; i < 2; ++i) {
                 const double slope = b + 2 * c * t;
@@ -40,17 +40,32 @@ namespace {
             }
             return t;
         }
-
-        /// Height of the smoothed boundary over the chord, outwards: the cubic with the end tangents.
-        double bulge(double t) const
+        Vec<2> normal(double t) const { return ((1 - t) * normal_start + t * normal_end).normalized(); }
+        double gap(const Vec<2>& x, double t, const Vec<2>& n) const
         {
-            const double rise_start = cross(chord, tangent_start) / chord.dot(tangent_start),
-                         rise_end = cross(chord, tangent_end) / chord.dot(tangent_end);
-            return -chord.norm() * t * (1 - t) * (rise_start * (1 - t) - rise_end * t);
+            return n.dot(x - start - t * chord) - rise * chord.norm() * t * (1 - t);
         }
     };
 
 } // namespace
+
+void follow_shape(Surface<2>& polyline, double share)
+{
+    const int n = polyline.count;
+    // half the turn at a vertex, from the edges before and after it
+    const auto half_turn = [&](int i) {
+        if (polyline.corner[i]) return 0.0;
+        const Vec<2> before = polyline.x(i) - polyline.x(i == 0 ? n - 1 : i - 1), after = polyline.x(i + 1 == n ? 0 : i + 1) - polyline.x(i);
+        return cross(before, after) / (before.squaredNorm() + after.squaredNorm());
+    };
+    const double first = half_turn(0);
+    double start = first;
+    for (int i = 0; i < n; ++i) {
+        const double end = i + 1 == n ? first : half_turn(i + 1);
+        polyline.rise[i] += share * ((start + end) / 2 - polyline.rise[i]);
+        start = end;
+    }
+}
 
 int nearest_vertex(const Surface<2>& polyline, const Vec<2>& x)
 {
@@ -75,8 +90,8 @@ Projection project(const Surface<2>& polyline, const Vec<2>& x, int hint)
         const double t = here.foot(x);
         const int move = t < 0 ? -1 : t > 1 ? 1 : 0;
         if (move == 0) {
-            const Vec<2> normal = outward((1 - t) * here.tangent_start + t * here.tangent_end).normalized();
-            return { segment, t, normal, normal.dot(x - here.start - t * here.chord) - here.bulge(t) };
+            const Vec<2> normal = here.normal(t);
+            return { segment, t, normal, here.gap(x, t, normal) };
         }
         if (move * last_move < 0) break; // between two segments: the vertex of a corner
         last_move = move;

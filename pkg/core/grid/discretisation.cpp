@@ -18,7 +18,7 @@ template <int Dim> struct Discretisation<Dim>::Cells {
     Index size;
     std::vector<Moments<Dim>> region; ///< per cell: what the region hosted by this cell holds; none: volume 0
 
-    Cells(const Outline<Dim>& outline, const Resolution& resolution, int across)
+    Cells(const Outline<Dim>& outline, const Resolution& resolution, double across)
     {
         const Box<Dim> bounds = outline.bounds();
         const Vec<Dim> extent = bounds.max - bounds.min;
@@ -87,7 +87,7 @@ template <int Dim> struct Discretisation<Dim>::Cells {
 };
 
 template <int Dim>
-int Discretisation<Dim>::points_with(const Outline<Dim>& outline, const Resolution& resolution, int cells_across)
+int Discretisation<Dim>::points_with(const Outline<Dim>& outline, const Resolution& resolution, double cells_across)
 {
     return power(2, Dim) * Cells(outline, resolution, cells_across).region_count();
 }
@@ -160,6 +160,7 @@ template <int Dim> Discretisation<Dim>::Discretisation(const Outline<Dim>& outli
 template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
 {
     std::map<typename Cells::Index, int, IndexLess<Dim>> node_of;
+    int full_cell = -1; // where the gradients of full cells are
     for (int c = 0; c < int(cells.region.size()); ++c) {
         const Moments<Dim>& region = cells.region[c];
         if (region.volume == 0) continue;
@@ -177,10 +178,16 @@ template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
             const Vec<Dim> x = region.centroid() + root * corner;
             by_cell[cells.cell_of(x)].push_back(x);
         }
-        regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume });
+        const bool full = std::abs(region.volume / std::pow(cell_width, Dim) - 1) < 1e-12;
+        regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume, full });
         for (const auto& [cell, positions] : by_cell) {
-            Block block { point_count(), int(positions.size()), {} };
-            for (const Vec<Dim>& x : positions) {
+            const int in_block = int(positions.size());
+            const bool known = full && full_cell >= 0;
+            Block block { point_count(), in_block, known ? full_cell : int(gradient.size()), {} };
+            if (!known) gradient.resize(gradient.size() + size_t(stencil) * in_block * Dim);
+            if (full) full_cell = block.gradient;
+            for (int q = 0; q < in_block; ++q) {
+                const Vec<Dim>& x = positions[q];
                 const Stencil<Dim> shape(x, cells.node_position(cell), cell, cell_width);
                 for (int k = 0; k < stencil; ++k) {
                     const auto [entry, added] = node_of.try_emplace(shape.cell[k], node_count());
@@ -191,7 +198,9 @@ template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
                     block.node[k] = entry->second;
                     node_mass[entry->second] += region.volume / count * shape.value[k];
                     this->shape.push_back(shape.value[k]);
-                    gradient.insert(gradient.end(), shape.gradient[k].data(), shape.gradient[k].data() + Dim);
+                    if (!known)
+                        std::copy(shape.gradient[k].data(), shape.gradient[k].data() + Dim,
+                                  &gradient[block.gradient + size_t(k * in_block + q) * Dim]);
                 }
                 point_position.push_back(x);
                 point_volume.push_back(region.volume / count);
@@ -296,7 +305,7 @@ template <int Dim> void Discretisation<Dim>::average_gradients()
             for (int k = 0; k < stencil; ++k)
                 for (int d = 0; d < Dim; ++d)
                     all[size_t(Dim) * block.node[k] + d]
-                        += point_volume[p] / moments.volume * gradient[(size_t(p) * stencil + k) * Dim + d];
+                        += point_volume[p] / moments.volume * gradient_at(block, p, k)[d];
     each_link([&](int slave, int master, double weight) {
         for (int d = 0; d < Dim; ++d)
             all[size_t(Dim) * master + d] += weight * all[size_t(Dim) * slave + d];
@@ -327,6 +336,7 @@ template <int Dim> void Discretisation<Dim>::build_delassus()
                 if (other != folded[q].end()) value += weight * other->second / node_mass[node];
             }
             if (value == 0) continue;
+            if (p == q) delassus_diagonal.push_back(value);
             delassus_column.push_back(q);
             delassus_value.push_back(value);
         }

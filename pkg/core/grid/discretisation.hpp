@@ -56,15 +56,17 @@ public:
     std::vector<Vec<Dim>> point_position;
     std::vector<double> point_volume;
     std::vector<double> shape;    ///< [point][stencil], shape functions
-    std::vector<double> gradient; ///< [point][stencil][Dim], of the shape functions [1 / radius]
+    std::vector<double> gradient; ///< of the shape functions, blocks of [stencil][point][Dim] [1 / radius]
     struct Block {
         int first_point, point_count;
+        int gradient; ///< where the block's gradients begin; full cells share theirs
         std::array<std::int32_t, stencil> node;
     };
     std::vector<Block> blocks;
     struct Region {
         int first_block, block_count;
         double volume;
+        bool full; ///< a whole cell, its points the 2-point Gauss rule
     };
     std::vector<Region> regions;
     int point_count() const { return int(point_position.size()); }
@@ -82,12 +84,18 @@ public:
     /// `column`, per unit density and radius^Dim; rows in CSR form, isotropic in space.
     std::vector<int> delassus_row, delassus_column;
     std::vector<double> delassus_value;
+    std::vector<double> delassus_diagonal;
     double delassus(int row, int column) const;
 
     Moments<Dim> moments; ///< of the material points; equal to the outline's to round-off
 
+    /// Gradient of a stencil's shape function at a block's point [1 / radius].
+    Eigen::Map<const Vec<Dim>> gradient_at(const Block& block, int point, int k) const
+    {
+        return Eigen::Map<const Vec<Dim>>(&gradient[block.gradient + size_t(k * block.point_count + point - block.first_point) * Dim]);
+    }
     /// Number of material points with this many cells across the grain's longest side.
-    static int points_with(const Outline<Dim>& outline, const Resolution& resolution, int cells_across);
+    static int points_with(const Outline<Dim>& outline, const Resolution& resolution, double cells_across);
 
     /// Node values interpolated at a surface point; `field` is [node][Dim].
     Vec<Dim> at_surface(int point, const double* field) const;

@@ -21,27 +21,26 @@ namespace {
 
 } // namespace
 
-template <int Dim> double contact_residual(const std::vector<Contact<Dim>>& contacts)
+template <int Dim> double ContactProblem<Dim>::residual() const
 {
-    if (contacts.empty()) return 0;
     double inertia = 0;
     for (const auto& contact : contacts)
         inertia += contact.inertia / double(contacts.size());
     double error = 0, r2 = 0, u2 = 0, q2 = 0;
     for (const auto& contact : contacts) {
         const Vec<Dim>&n = contact.normal, &r = contact.impulse;
-        const Vec<Dim> u = inertia * (contact.relative(&Surface<Dim>::velocity) + contact.gap_speed * n);
+        const Vec<Dim> u = inertia * (relative(contact, &Surface<Dim>::velocity) + contact.gap_speed * n);
         const Vec<Dim> slide = u - u.dot(n) * n;
         const Vec<Dim> target = r - u - contact.friction * slide.norm() * n;
         error += (r - cone_projection(target, n, contact.friction)).squaredNorm();
         r2 += r.squaredNorm();
         u2 += u.squaredNorm();
-        q2 += (inertia * (contact.relative(&Surface<Dim>::velocity_before) + contact.gap_speed * n)).squaredNorm();
+        q2 += (inertia * (relative(contact, &Surface<Dim>::velocity_before) + contact.gap_speed * n)).squaredNorm();
     }
     const double scale = std::sqrt(std::max({ r2, u2, q2 }));
     return scale > 0 ? std::sqrt(error) / scale : 0;
 }
 
-template double contact_residual<2>(const std::vector<Contact<2>>&);
+template struct ContactProblem<2>;
 
 } // namespace softgrain

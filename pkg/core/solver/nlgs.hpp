@@ -11,11 +11,11 @@ struct NonlinearGaussSeidel {
     double tolerance = 1e-3;
     int max_sweeps = 1000;
 
-    /// Starts from the contacts' impulses, leaves the solution there, and the velocities and impulses of the
-    /// surfaces to match. Returns the number of sweeps.
-    template <int Dim> int solve(std::vector<Contact<Dim>>& contacts) const;
+    /// Starts from the contacts' impulses, leaves the solution there, and the velocities of the surfaces to match.
+    /// Returns the number of sweeps.
+    template <int Dim> int solve(ContactProblem<Dim>& problem) const;
 };
 
-extern template int NonlinearGaussSeidel::solve<2>(std::vector<Contact<2>>&) const;
+extern template int NonlinearGaussSeidel::solve<2>(ContactProblem<2>&) const;
 
 } // namespace softgrain

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/assembly.hpp"
 
+#include "contact/polyline.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +10,9 @@
 
 namespace softgrain {
 namespace {
+
+    /// How fast the smoothed outline follows the surface: over some fifty steps, a few periods of its vibrations.
+    constexpr double shape_share = 0.02;
 
     std::string whose(int id) { return "soft grain #" + std::to_string(id); }
 
@@ -145,6 +150,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
             surface.max = hi;
             surface.speed = std::sqrt(speed2);
             surface.travel += dt * surface.speed;
+            follow_shape(surface, shape_share);
             grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
         }
     }
@@ -155,21 +161,21 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
                                   + " J); likely causes: a time step over the stable limit or a body moved by hand.");
 }
 
-template <int Dim> void Assembly<Dim>::account(const std::vector<Contact<Dim>>& contacts, EnergyBalance& balance)
+template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)
 {
-    for (const auto& contact : contacts) {
+    for (const auto& contact : problem.contacts) {
         if (contact.impulse == Vec<Dim>::Zero()) continue;
-        const Vec<Dim> u = (contact.relative(&Surface<Dim>::velocity) + contact.relative(&Surface<Dim>::velocity_before)) / 2;
+        const Vec<Dim> u = (problem.relative(contact, &Surface<Dim>::velocity)
+                            + problem.relative(contact, &Surface<Dim>::velocity_before)) / 2;
         const double normal = contact.impulse.dot(contact.normal) * u.dot(contact.normal);
-        const double total = contact.impulse.dot(u);
         balance.contact_dissipation -= normal;
-        balance.friction -= total - normal;
-        if (!contact.other) balance.external_work += contact.impulse.dot(contact.drive);
-        else if (contact.other->mobility == 0)
+        balance.friction -= contact.impulse.dot(u) - normal;
+        if (contact.other < 0) balance.external_work += contact.impulse.dot(contact.drive);
+        else if (Surface<Dim>& other = *problem.bodies[contact.other]; other.mobility == 0)
             for (int k = 0; k < Dim; ++k)
-                balance.external_work += contact.weight[k] * contact.impulse.dot(contact.other->v(contact.vertex[k]));
-        if (contact.body->mobility == 0)
-            balance.external_work -= contact.impulse.dot(contact.body->v(contact.point));
+                balance.external_work += contact.weight[k] * contact.impulse.dot(other.v(contact.vertex[k]));
+        if (Surface<Dim>& body = *problem.bodies[contact.body]; body.mobility == 0)
+            balance.external_work -= contact.impulse.dot(body.v(contact.point));
     }
 }
 

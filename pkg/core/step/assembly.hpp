@@ -33,7 +33,7 @@ public:
     /// when a value is no longer finite.
     void correct(double dt, int threads);
     /// Work of the solved contacts over the step, with the mean of the velocities before and after it.
-    static void account(const std::vector<Contact<Dim>>& contacts, EnergyBalance& balance);
+    static void account(const ContactProblem<Dim>& problem, EnergyBalance& balance);
     /// Elastic energies and smallest stretches of the grains, half a step back: velocities stand half a step
     /// behind displacements, and the energy balance closes to second order only at one instant.
     void evaluate_energy(double dt, int threads);

@@ -45,6 +45,7 @@ template <int Dim> KernelData<Dim> Batch<Dim>::data()
              mesh->master_count,
              int(mesh->regions.size()),
              mesh->surface_count(),
+             mesh->cell_width,
              mesh->node_position.data(),
              mesh->node_mass.data(),
              mesh->inverse_mass.data(),

@@ -17,6 +17,7 @@ constexpr int max_parameters = 4;
 /// What a kernel needs, as plain pointers.
 template <int Dim> struct KernelData {
     int node_count, master_count, region_count, surface_count;
+    double cell_width;
     const Vec<Dim>* node_position;
     const double* node_mass;
     const double* inverse_mass;
@@ -44,7 +45,10 @@ template <int Dim> struct MotionSums {
                          kinetic = second + Dim * Dim, gradient = kinetic + 1, count = gradient + Dim * Dim;
 };
 
-/// Kernels of one law; index 0: one lane, 1: eight lanes.
+/// A kernel for batches of one lane and of eight.
+template <int Dim, class... Arguments> using KernelPair = std::array<void (*)(const KernelData<Dim>&, Arguments...), 2>;
+
+/// Kernels of one law.
 template <int Dim> struct LawKernels {
     const char* name;
     int parameter_count;
@@ -52,9 +56,9 @@ template <int Dim> struct LawKernels {
     double (*wave_modulus)(const double* parameters);
     std::string (*complaint)(const double* parameters);
     /// Internal force on the masters into `force`; smallest J of a point into min_J [lane].
-    void (*internal_force[2])(const KernelData<Dim>&, double* min_J);
+    KernelPair<Dim, double*> internal_force;
     /// Elastic energy per radius^Dim [J/m^Dim] and smallest principal stretch, [lane].
-    void (*energy[2])(const KernelData<Dim>&, double* energy, double* min_stretch);
+    KernelPair<Dim, double*, double*> energy;
     /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa].
     Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
 };
@@ -62,15 +66,15 @@ template <int Dim> struct LawKernels {
 /// Kernels of every law.
 template <int Dim> struct MotionKernels {
     /// v += dt f / m + gain, gain [Dim][lane]; v at the surface into `surface`.
-    void (*kick[2])(const KernelData<Dim>&, double dt, const double* gain);
+    KernelPair<Dim, double, double*> kick;
     /// v += impulses in `surface` [density radius^(Dim+1) / s] over the masses.
-    void (*push[2])(const KernelData<Dim>&);
+    KernelPair<Dim> push;
     /// u += dt v.
-    void (*drift[2])(const KernelData<Dim>&, double dt);
+    KernelPair<Dim, double> drift;
     /// Displacements of the slaves.
-    void (*extend[2])(const KernelData<Dim>&);
+    KernelPair<Dim> extend;
     /// Displacements of the slaves; surface positions into `surface`; motion sums [count][lane] into `sums`.
-    void (*observe[2])(const KernelData<Dim>&, double* sums);
+    KernelPair<Dim, double*> observe;
 };
 
 /// The laws there are. Throws UserError, naming them, for another name.

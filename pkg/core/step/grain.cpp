@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/grain.hpp"
 
+#include "contact/polyline.hpp"
+
 #include <cmath>
 
 namespace softgrain {
@@ -98,6 +100,7 @@ template <int Dim> void Grain<Dim>::refresh()
             surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface()[size_t(Dim) * p + d];
     }
     surface.bound();
+    follow_shape(surface, 1);
 }
 
 template <int Dim> void Grain<Dim>::pull()
@@ -118,7 +121,7 @@ template <int Dim> std::vector<Mat<Dim>> Grain<Dim>::deformation_gradients() con
         for (int p = block.first_point; p < block.first_point + block.point_count; ++p)
             for (int k = 0; k < stencil; ++k)
                 F[p] += Eigen::Map<const Vec<Dim>>(&u[size_t(Dim) * block.node[k]])
-                    * Eigen::Map<const Vec<Dim>>(&mesh->gradient[(size_t(p) * stencil + k) * Dim]).transpose();
+                    * mesh->gradient_at(block, p, k).transpose();
     return F;
 }
 

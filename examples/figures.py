@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures 1 to 5 of Vu et al. 2017 from folders of runs of compaction.py and rigid_compaction.py.
+
+    python3 examples/figures.py DIR [DIR ...] [--out DIR]
+
+For instance the two materials of the paper together:
+
+    yade -n -x examples/compaction.py --material nh --out nh
+    yade -n -x examples/compaction.py --material mr --out mr
+    python3 examples/figures.py nh mr --out both
+
+The curves of all folders share the figures, figure 1 is of the first folder; without --out the figures go there. Works
+without YADE, hence finds softgrain's file without importing the package, which would ask for YADE.
+"""
+import importlib.util
+import os
+import runpy
+import sys
+
+package = importlib.util.find_spec("softgrain")
+if package is None:
+    sys.exit("figures.py: softgrain is not installed for this python3: install it, or set PYTHONPATH to where it lies.")
+folder = package.submodule_search_locations[0]
+sys.path.insert(0, folder)
+runpy.run_path(os.path.join(folder, "figures.py"), run_name="__main__")

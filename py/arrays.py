@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a soft grain holds, as numpy arrays. Each function takes a body of the running scene; arrays are copies,
+SI units, current frame unless said otherwise."""
+import numpy
+
+
+def points(body):
+    """Current positions of the material points [m], shape (points, 2)."""
+    return _array(body.state.pointPositions(), 2)
+
+
+def pointVelocities(body):
+    """Velocities of the material points [m/s], shape (points, 2)."""
+    return _array(body.state.pointVelocities(), 2)
+
+
+def pointVolumes(body):
+    """Reference areas of the material points [m²], shape (points,)."""
+    return _array(body.state.pointVolumes())
+
+
+def deformationGradients(body):
+    """Deformation gradients F at the material points [-], shape (points, 2, 2)."""
+    return _array(body.state.deformationGradients(), 2, 2)
+
+
+def volumeRatios(body):
+    """J = det F at the material points [-], shape (points,)."""
+    return numpy.linalg.det(deformationGradients(body))
+
+
+def cauchyStresses(body):
+    """Cauchy stresses at the material points [Pa], tension positive, shape (points, 3, 3)."""
+    return _array(body.state.cauchyStress(), 3, 3)
+
+
+def vonMisesStresses(body):
+    """Von Mises stresses at the material points [Pa], shape (points,)."""
+    stress = cauchyStresses(body)
+    mean = numpy.trace(stress, axis1=1, axis2=2) / 3
+    deviator = stress - mean[:, None, None] * numpy.eye(3)
+    return numpy.sqrt(1.5 * numpy.sum(deviator**2, axis=(1, 2)))
+
+
+def pressures(body):
+    """Pressures, minus the mean Cauchy stresses, at the material points [Pa], shape (points,)."""
+    return -numpy.trace(cauchyStresses(body), axis1=1, axis2=2) / 3
+
+
+def outline(body):
+    """Current boundary, counter-clockwise [m], shape (surface points, 2)."""
+    return _array(body.state.outline(), 2)
+
+
+def _array(content, *shape):
+    return numpy.frombuffer(content, dtype="<f8").reshape(-1, *shape).copy()

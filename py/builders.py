@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Makes soft grains and the engines that move them. Lengths in m, all bodies in the xy-plane; materials as in YADE:
+the number or label of a material in O.materials, or the material itself."""
+import math
+
+import numpy
+import yade.wrapper as wrapper
+from yade import O
+from yade.minieigenHP import Quaternion, Vector3
+
+from . import cloud
+from .checks import InputError, not_negative, number, position, positive, whole
+
+LEAST_POINTS = 16
+VERLET = 0.05       # distance that grains may move until the collider sorts again [radius of the smallest]
+SOFT_MATERIALS = "NeoHookeanMat or a MooneyRivlinMat"
+
+
+def softDisc(center, radius, material=-1, points=276, angle=0.0, color=None, velocity=(0, 0, 0), spin=0.0, **shape):
+    """Body of one soft disc.
+
+    center    centre [m]
+    radius    radius of the undeformed disc [m]
+    points    number of material points wished for (the grid decides the exact number)
+    angle     rotation of the grid of material points about the centre [rad]
+    velocity  initial velocity [m/s]; spin: initial angular velocity about z [rad/s]
+    shape     further attributes of SoftGrain
+    Raises InputError, one sentence, on a value that makes no sense.
+    """
+    center = position("softDisc: center", center)
+    radius = positive(f"softDisc at {_shown(center)}: radius", radius, "m")
+    return _body(f"softDisc at {_shown(center)}", center, dict(shape, radius=radius), material, points, angle, color,
+                 velocity, spin)
+
+
+def softPolygon(vertices, material=-1, points=276, color=None, velocity=(0, 0, 0), spin=0.0, **shape):
+    """Body of one soft polygon.
+
+    vertices  corners in order, in world coordinates [m]; the edges must not cross; convex or not
+    The other arguments are those of softDisc.
+    Raises InputError, one sentence, on a value that makes no sense.
+    """
+    try:
+        count = len(vertices)
+    except TypeError:
+        raise InputError(f"softPolygon: vertices is {vertices!r}: give a list of at least three corners.") from None
+    if count < 3:
+        raise InputError(f"softPolygon has {count} vertices: give at least three corners.")
+    corners = [position(f"softPolygon: vertex {i}", vertex) for i, vertex in enumerate(vertices)]
+    plane = numpy.array(corners)[:, :2]
+    crossing = _crossing_edges(plane)
+    if crossing:
+        raise InputError("softPolygon: edges {} and {} cross: give the corners in order along the boundary."
+                         .format(*crossing))
+    area, centroid = _area_and_centroid(plane)
+    if abs(area) < 1e-9 * numpy.max(numpy.ptp(plane, axis=0))**2:
+        raise InputError(f"softPolygon with {count} vertices has no area: give corners that do not lie on a line.")
+    center = (centroid[0], centroid[1], corners[0][2])
+    relative = [Vector3(x - centroid[0], y - centroid[1], 0) for x, y in plane]
+    return _body(f"softPolygon at {_shown(center)}", center, dict(shape, vertices=relative), material, points, 0.0,
+                 color, velocity, spin)
+
+
+def softCloud(width, count, diameters=(1.4e-3, 2.4e-3), solidFraction=0.65, material=-1, points=276, seed=1, **shape):
+    """Loose cloud of soft discs that do not touch, in the box [0, width] x [0, height].
+
+    width          of the box [m]
+    count          number of discs
+    diameters      smallest and largest diameter [m]; those of the grains are uniform between them
+    solidFraction  area of all grains / (width height); up to about 0.75
+    seed           whole number: sizes, places and grid orientations follow from it
+    Returns the list of bodies and the height of the box [m].
+    Raises InputError, one sentence, on a value that makes no sense or when there is no room.
+    """
+    radii, places, angles, height = discCloud(width, count, diameters, solidFraction, seed)
+    bodies = [softDisc(place, radius, material, points, angle, **shape)
+              for place, radius, angle in zip(places, radii, angles)]
+    return bodies, height
+
+
+def discCloud(width, count, diameters, solidFraction, seed):
+    """The geometry of softCloud, also for rigid discs: radii [m], centres [m] (count, 2), angles [rad] and the
+    height of the box [m]. Raises InputError."""
+    width = positive("softCloud: width", width, "m")
+    count = whole("softCloud: count", count, 1)
+    seed = whole("softCloud: seed", seed, 0)
+    fraction = positive("softCloud: solidFraction", solidFraction)
+    try:
+        smallest, largest = diameters
+    except (TypeError, ValueError):
+        raise InputError(f"softCloud: diameters is {diameters!r}: give the smallest and the largest, in m.") from None
+    smallest = positive("softCloud: smallest diameter", smallest, "m")
+    largest = positive("softCloud: largest diameter", largest, "m")
+    if smallest > largest:
+        raise InputError(f"softCloud: diameters are ({smallest:g}, {largest:g}) m: give the smaller one first.")
+    generator = numpy.random.default_rng(seed)
+    radii = cloud.random_radii(count, (smallest, largest), generator)
+    height = math.pi * float(numpy.sum(radii**2)) / (width * fraction)
+    places = cloud.scatter(width, height, radii, generator)
+    angles = generator.uniform(0, 2 * math.pi, count)
+    return radii.tolist(), places.tolist(), angles.tolist(), height
+
+
+def widthOfSquareCloud(count, diameters, solidFraction):
+    """Width [m] that makes the box of softCloud about square."""
+    a, b = diameters
+    mean_area = math.pi / 12 * (a * a + a * b + b * b)
+    return math.sqrt(count * mean_area / solidFraction)
+
+
+def softBox(width, height, material=-1):
+    """The four YADE walls around [0, width] x [0, height], all with zero velocity: bodies in the order left, right,
+    bottom, top."""
+    from yade.utils import wall
+
+    width, height = positive("softBox: width", width, "m"), positive("softBox: height", height, "m")
+    return [wall(0.0, axis=0, sense=1, material=material), wall(width, axis=0, sense=-1, material=material),
+            wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
+
+
+def softEngines(gravity=(0, 0, 0), dt=None, safety=0.6, tolerance=1e-3, maxSweeps=1000, verletDist=None,
+                friction=None, wallFriction=None, more=()):
+    """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
+
+    gravity       [m/s²]
+    dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper
+    safety        time step of the SoftTimeStepper [stable limit]
+    tolerance     of the contact solver [-]; maxSweeps: most sweeps of it in a step
+    verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain
+    friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
+    wallFriction  the same between grains and other bodies
+    more          engines to append (recorders, PyRunners)
+    """
+    gravity = position("softEngines: gravity", gravity, "m/s²")
+    tolerance = positive("softEngines: tolerance", tolerance)
+    safety = positive("softEngines: safety", safety)
+    if safety >= 1:
+        raise InputError(f"softEngines: safety is {safety:g}: give less than 1; 0.6 is sound.")
+    maxSweeps = whole("softEngines: maxSweeps", maxSweeps, 1)
+    if dt is None:
+        steppers = [wrapper.SoftTimeStepper(safety=safety)]
+    else:
+        O.dt = positive("softEngines: dt", dt, "s")
+        steppers = []
+    if verletDist is None:
+        areas = [body.shape.area() for body in O.bodies if isinstance(body.shape, wrapper.SoftGrain)]
+        verletDist = VERLET * math.sqrt(min(areas, default=0.0) / math.pi)
+    return [
+        wrapper.ForceResetter(),
+        wrapper.InsertionSortCollider(
+            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb()], verletDist=verletDist),
+        wrapper.InteractionLoop(
+            [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),
+             wrapper.Ig2_Box_SoftGrain_SoftGeom()],
+            [wrapper.Ip2_SoftMat_SoftMat_SoftPhys(**_friction("friction", friction)),
+             wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction))],
+            [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics()]),
+        *steppers,
+        wrapper.NewtonIntegrator(damping=0, gravity=Vector3(*gravity)),
+        wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps),
+        *more,
+    ]
+
+
+def _friction(name, coefficient):
+    """The attribute of an Ip2 functor that gives this coefficient whatever the materials say."""
+    if coefficient is None:
+        return {}
+    angle = math.atan(not_negative(f"softEngines: {name}", coefficient))
+    return {"frictAngle": wrapper.MatchMaker(algo="val", val=angle)}
+
+
+def _body(name, center, shape, material, points, angle, color, velocity, spin):
+    points = whole(f"{name}: points", points, LEAST_POINTS)
+    angle, spin = number(f"{name}: angle", angle, "rad"), number(f"{name}: spin", spin, "rad/s")
+    velocity = position(f"{name}: velocity", velocity, "m/s")
+    body = wrapper.Body()
+    body.shape = wrapper.SoftGrain(points=points, **shape)
+    if color is not None:
+        body.shape.color = Vector3(*color)
+    body.material = _soft_material(name, material)
+    state = wrapper.SoftState()
+    state.pos = state.refPos = Vector3(*center)
+    state.ori = state.refOri = Quaternion(Vector3(0, 0, 1), angle)
+    state.vel, state.angVel = Vector3(*velocity), Vector3(0, 0, spin)
+    body.state = state
+    _set_mass(name, body)
+    body.bounded, body.aspherical = True, False
+    return body
+
+
+def _set_mass(name, body):
+    """Mass [kg/m] and moment of inertia [kg m] of the undeformed grain (that of the disc of the same area: the
+    integrator replaces it by the exact one)."""
+    try:
+        area = body.shape.area()
+    except RuntimeError as error:
+        raise InputError(f"{name}: {error}") from None
+    body.state.mass = mass = area * body.material.density
+    body.state.inertia = Vector3(1, 1, 1) * (mass * area / (2 * math.pi))
+
+
+def _soft_material(name, material):
+    if isinstance(material, (int, str)) and not isinstance(material, bool):
+        try:
+            found = O.materials[material]
+        except (IndexError, KeyError, RuntimeError, ValueError):
+            raise InputError(f"{name}: material {material!r} is not in O.materials: append a {SOFT_MATERIALS} "
+                             "first.") from None
+    else:
+        found = material
+    if not isinstance(found, wrapper.SoftMat):
+        raise InputError(f"{name}: material is a {type(found).__name__}: give a {SOFT_MATERIALS}.")
+    return found
+
+
+def _area_and_centroid(plane):
+    """Signed area [m²] and centroid [m] of a polygon, shape (corners, 2)."""
+    origin = plane.mean(axis=0)
+    here = plane - origin
+    ahead = numpy.roll(here, -1, axis=0)
+    cross = here[:, 0] * ahead[:, 1] - ahead[:, 0] * here[:, 1]
+    area = cross.sum() / 2
+    if area == 0:
+        return 0.0, origin
+    return area, origin + ((here + ahead) * cross[:, None]).sum(axis=0) / (6 * area)
+
+
+def _crossing_edges(plane):
+    """The numbers of the first two edges that cross each other, or None."""
+    count = len(plane)
+
+    def side(a, b, c):
+        return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+    for i in range(count):
+        for j in range(i + 2, count):
+            if i == 0 and j == count - 1:
+                continue
+            a, b, c, d = plane[i], plane[i + 1], plane[j], plane[(j + 1) % count]
+            if side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0:
+                return i, j
+    return None
+
+
+def _shown(center):
+    return f"({center[0]:g}, {center[1]:g})"

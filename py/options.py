@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Command-line options shared by the examples. A bad option or value is one sentence and exit code 2."""
+import argparse
+import os
+import re
+import sys
+
+import yade.wrapper as wrapper
+from yade import O
+
+from .checks import InputError
+
+# Options that say how a run is managed, not what is computed: they may differ when a run is resumed.
+MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds"}
+
+# What argparse takes for a value and not for an option; its own pattern leaves out -1e6.
+NEGATIVE_NUMBER = re.compile(r"^-((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf)$")
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser without abbreviations whose errors are InputErrors."""
+
+    def __init__(self, name, description):
+        super().__init__(prog=f"yade -n -x {name}.py", description=description, allow_abbrev=False,
+                         formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+        self.name = name
+        self._negative_number_matcher = NEGATIVE_NUMBER
+
+    def error(self, message):
+        raise InputError(f"{message}; --help lists the options.")
+
+    def add_management(self):
+        group = self.add_argument_group("the run")
+        group.add_argument("--out", default=self.name, metavar="DIR", help="folder for what is computed")
+        group.add_argument("--force", action="store_true", help="overwrite a run in that folder")
+        group.add_argument("--resume", action="store_true", help="continue the run in that folder from its checkpoint")
+        group.add_argument("--threads", type=count, default=O.numThreads, metavar="N", help="OpenMP threads")
+        group.add_argument("--checkpoint-seconds", type=positive, default=20.0, metavar="S",
+                           help="wall time between checkpoints [s]")
+
+    def read(self, words=None):
+        """The options, with `given`, the set of names that the command line holds, as a further attribute."""
+        options = self.parse_args(words, Options())
+        defaults = [(action, action.default) for action in self._actions]
+        for action, _ in defaults:
+            action.default = argparse.SUPPRESS
+        options.given = set(vars(self.parse_args(words)))
+        for action, default in defaults:
+            action.default = default
+        return options
+
+
+class Options(argparse.Namespace):
+    """What the command line says."""
+
+    def set_quick(self, values):
+        """With --quick, takes these values for options that the command line does not hold."""
+        for name, value in values.items() if self.quick else ():
+            if name not in self.given:
+                setattr(self, name, value)
+
+
+def positive(text):
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} has to be above zero and finite")
+    return value
+
+
+def not_negative(text):
+    value = float(text)
+    if not 0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} has to be zero or above, and finite")
+    return value
+
+
+def finite(text):
+    value = float(text)
+    if not abs(value) < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} has to be finite")
+    return value
+
+
+def count(text):
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} has to be 1 or more")
+    return value
+
+
+def seed(text):
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} has to be 0 or more")
+    return value
+
+
+for _type, _word in ((positive, "number above zero"), (not_negative, "number"), (finite, "number"),
+                     (count, "whole number"), (seed, "whole number")):
+    _type.__name__ = _word       # argparse says: invalid <name> value
+
+
+def add_packing(parser, until):
+    """The options of a box of discs whose top wall comes down; the group, for more of them."""
+    group = parser.add_argument_group("the packing")
+    group.add_argument("--grains", type=count, default=300, metavar="N", help="number of discs")
+    group.add_argument("--diameters", type=positive, nargs=2, default=[1.4e-3, 2.4e-3], metavar=("MIN", "MAX"),
+                       help="of the discs, uniform between these [m]")
+    group.add_argument("--solid-fraction", type=positive, default=0.65, metavar="PHI", help="at the start")
+    group.add_argument("--speed", type=positive, default=1.0, metavar="V", help="of the top wall [m/s]")
+    group.add_argument("--friction", type=not_negative, default=0.0, metavar="MU", help="between grains")
+    group.add_argument("--wall-friction", type=not_negative, default=0.0, metavar="MU", help="of grains and walls")
+    group.add_argument("--until", type=positive, default=until, metavar="PHI", help="solid fraction at the end")
+    group.add_argument("--seed", type=seed, default=1, metavar="N", help="of sizes, places and grid orientations")
+    group.add_argument("--quick", action="store_true", help="a small, fast packing")
+    return group
+
+
+def add_material(parser):
+    group = parser.add_argument_group("the material of the grains")
+    group.add_argument("--material", choices=("nh", "mr"), default="nh", help="Neo-Hookean or Mooney-Rivlin")
+    group.add_argument("--lambda", type=finite, default=61e6, dest="lambda_", metavar="PA", help="Neo-Hookean, Pa")
+    group.add_argument("--mu", type=positive, default=1.26e6, metavar="PA", help="Neo-Hookean, Pa")
+    group.add_argument("--c1", type=finite, default=0.63e6, metavar="PA", help="Mooney-Rivlin, Pa")
+    group.add_argument("--c2", type=finite, default=-0.0012e6, metavar="PA", help="Mooney-Rivlin, Pa")
+    group.add_argument("-c", "--c", type=positive, default=6e6, metavar="PA",
+                       help="Mooney-Rivlin, Pa; write -c, since yade takes --c for an option of its own")
+    group.add_argument("--density", type=positive, default=1000.0, metavar="KG/M3", help="of the undeformed grains")
+
+
+def make_material(options):
+    """The material of the grains that the options describe."""
+    common = {"density": options.density, "label": "grains"}
+    if options.material == "nh":
+        return wrapper.NeoHookeanMat(lambda_=options.lambda_, mu=options.mu, **common)
+    return wrapper.MooneyRivlinMat(c1=options.c1, c2=options.c2, c=options.c, **common)
+
+
+def add_method(parser):
+    group = parser.add_argument_group("the method")
+    group.add_argument("--integrator", choices=("explicit", "implicit"), default="explicit",
+                       help="time integration; implicit is not there yet")
+    group.add_argument("--formulation", choices=("total", "updated"), default="total",
+                       help="Lagrangian formulation; updated is not there yet")
+    group.add_argument("--dt", type=positive, default=None, metavar="S", help="time step; None: chosen automatically")
+
+
+def refuse_what_is_not_there(options):
+    """InputError for options that are announced but not there yet."""
+    if getattr(options, "integrator", "explicit") == "implicit":
+        raise InputError("--integrator implicit is not there yet: use explicit.")
+    if getattr(options, "formulation", "total") == "updated":
+        raise InputError("--formulation updated is not there yet: use total.")
+    if getattr(options, "quasistatic", False):
+        raise InputError("--quasistatic is not there yet: leave it away and choose a small --speed.")
+
+
+def use_threads(wanted):
+    """Starts yade anew with -j when the number of threads asked for is not the one that runs: OpenMP and YADE fix it
+    when they start. Returns when the numbers agree."""
+    if wanted == O.numThreads:
+        return
+    mark = "SOFTGRAIN_RESTARTED_FOR_THREADS"
+    if os.environ.get(mark):
+        raise InputError(f"--threads {wanted} could not be had, yade runs {O.numThreads}: "
+                         f"start it with yade -j{wanted}.")
+    os.environ[mark] = str(wanted)
+    with open("/proc/self/cmdline", "rb") as file:
+        words = [os.fsdecode(word) for word in file.read().split(b"\0")[:-1]]
+    script = words.index(sys.argv[0], 2)
+    before, skip = [], False
+    for word in words[2:script]:
+        if not skip and not word.startswith(("-j", "--threads", "--cores")):
+            before.append(word)
+        skip = not skip and word in ("-j", "--threads", "--cores")
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os.execv(words[0], words[:2] + [f"-j{wanted}"] + before + words[script:])

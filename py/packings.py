@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What can be asked of a packing in a box, of soft grains or of YADE's rigid discs: the same questions to both, so
+that the same loop (press.py) drives and records them."""
+import math
+
+import numpy
+import yade.wrapper as wrapper
+from yade import O, utils
+
+from . import arrays, measures, summary
+
+
+class SoftPacking:
+    """All soft grains of the scene."""
+
+    def __init__(self, frictional):
+        self.frictional = frictional
+        self.bodies = measures.softBodies()
+        self.ids = [body.id for body in self.bodies]
+        self.integrator = measures.softIntegrator()
+        self.points = measures.pointTotal()
+
+    def area(self):
+        """Current area of the grains [m²]."""
+        return self.integrator.solidArea()
+
+    def contacts(self):
+        """coordination, rattlers, contacts of the last step."""
+        return measures.coordination(measures.contactPairs(), self.ids, self.frictional)
+
+    def energies(self):
+        """Energies now and works since the start [J/m]: csv columns."""
+        soft = self.integrator
+        return {"kinetic_J": soft.kineticEnergy(), "elastic_J": soft.elasticEnergy(),
+                "external_work_J": soft.externalWork, "friction_J": soft.frictionDissipation,
+                "contact_dissipation_J": soft.contactDissipation}
+
+    def solver(self):
+        """State of the solver in the last step: csv columns."""
+        soft = self.integrator
+        return {"min_J": soft.minJ(), "max_penetration_over_R": soft.maxPenetration(),
+                "solver_residual": soft.residual()}
+
+    def total_sweeps(self):
+        return self.integrator.totalIterations
+
+    def stage_seconds(self):
+        """Wall time by stage since the scene was made [s]."""
+        return summary.stages()
+
+    def snapshot(self):
+        """What figure 1 shows: material points with fields, and the outlines; see figure1.py."""
+        outlines = [arrays.outline(body) for body in self.bodies]
+        points = [arrays.points(body) for body in self.bodies]
+        return {"points": numpy.concatenate(points), "point_sizes": numpy.array([len(p) for p in points]),
+                "von_mises_Pa": numpy.concatenate([arrays.vonMisesStresses(body) for body in self.bodies]),
+                "J": numpy.concatenate([arrays.volumeRatios(body) for body in self.bodies]),
+                "outlines": numpy.concatenate(outlines), "outline_sizes": numpy.array([len(o) for o in outlines])}
+
+
+class RigidPacking:
+    """All dynamic spheres of the scene, taken as discs of unit thickness; needs O.trackEnergy."""
+
+    def __init__(self, frictional):
+        self.frictional = frictional
+        self.bodies = [body for body in O.bodies if isinstance(body.shape, wrapper.Sphere)]
+        self.ids = [body.id for body in self.bodies]
+        self.radii = [body.shape.radius for body in self.bodies]
+        self.points = len(self.bodies)
+        loop = next(engine for engine in O.engines if isinstance(engine, wrapper.InteractionLoop))
+        self.law = loop.lawDispatcher.functors[0]
+
+    def area(self):
+        return math.pi * math.fsum(radius * radius for radius in self.radii)
+
+    def contacts(self):
+        return measures.coordination(measures.rigidContactPairs(), self.ids, self.frictional)
+
+    def energies(self):
+        """The dissipation of YADE's numerical damping stands in contact_dissipation_J; external_work_J is summed by
+        the loop."""
+        tracked = dict(O.energy.items())
+        return {"kinetic_J": utils.kineticEnergy(), "elastic_J": self.law.elasticEnergy(),
+                "friction_J": tracked.get("plastDissip", 0.0), "contact_dissipation_J": tracked.get("nonviscDamp", 0.0)}
+
+    def solver(self):
+        """The deepest overlap, over the radius of the smaller disc: csv columns."""
+        deepest = max((i.geom.penetrationDepth / min(i.geom.refR1, i.geom.refR2 if i.geom.refR2 > 0 else i.geom.refR1)
+                       for i in O.interactions), default=0.0)
+        return {"max_penetration_over_R": max(deepest, 0.0)}
+
+    def total_sweeps(self):
+        return math.nan
+
+    def stage_seconds(self):
+        return {}
+
+    def snapshot(self):
+        turn = numpy.linspace(0, 2 * math.pi, 48, endpoint=False)
+        circle = numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
+        outlines = [circle * radius + numpy.array(body.state.pos)[:2] for body, radius in zip(self.bodies, self.radii)]
+        return {"outlines": numpy.concatenate(outlines), "outline_sizes": numpy.full(len(outlines), len(circle))}

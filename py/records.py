@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The csv file of a run, written row by row so that nothing computed is lost, and files replaced in one stroke."""
+import json
+import math
+import os
+
+
+class Table:
+    """A csv file with fixed columns. Every row is on disk when `append` returns."""
+
+    def __init__(self, path, columns, rows=0):
+        """Opens the file and keeps its first `rows` rows; later ones (after a checkpoint) are cut."""
+        self.columns = columns
+        self.rows = rows
+        kept = [",".join(columns)]
+        if rows:
+            with open(path, encoding="ascii") as old:
+                kept = old.read().splitlines()[:rows + 1]
+        replace_text(path, "\n".join(kept) + "\n")
+        self._file = open(path, "a", encoding="ascii")
+
+    def append(self, row):
+        """Writes a dict of columns; absent ones become nan."""
+        unknown = set(row) - set(self.columns)
+        if unknown:
+            raise KeyError(f"not columns of the table: {', '.join(sorted(unknown))}")
+        self._file.write(",".join(_shown(row.get(column, math.nan)) for column in self.columns) + "\n")
+        self._file.flush()
+        self.rows += 1
+
+    def close(self):
+        self._file.close()
+
+
+def read_table(path):
+    """A csv file as a dict from column to array of float."""
+    import numpy
+
+    with open(path, encoding="ascii") as file:
+        lines = file.read().splitlines()
+    columns = lines[0].split(",")
+    values = numpy.array([[float(word) for word in line.split(",")] for line in lines[1:]])
+    return {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)}
+
+
+def replace_text(path, text):
+    """Writes a file so that it is, at every moment, whole: the old one or the new one."""
+    unfinished = f"{path}.part"
+    with open(unfinished, "w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(unfinished, path)
+
+
+def write_json(path, content, nan=False):
+    """Writes a dict as json, in one stroke. NaN becomes null, unless `nan` lets Python's own NaN stand."""
+    replace_text(path, json.dumps(content if nan else _finite(content), indent=2) + "\n")
+
+
+def read_json(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def _shown(value):
+    return str(value) if isinstance(value, int) else f"{value:.10g}"
+
+
+def _finite(content):
+    if isinstance(content, dict):
+        return {key: _finite(value) for key, value in content.items()}
+    if isinstance(content, (list, tuple)):
+        return [_finite(value) for value in content]
+    if isinstance(content, float) and not math.isfinite(content):
+        return None
+    return content

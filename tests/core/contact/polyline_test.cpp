@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/support.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace softgrain;
+using namespace softgrain::testing_support;
+
+namespace {
+
+Surface<2> circle(int count, double phase = 0)
+{
+    auto vertices = polar(count, [](double) { return 1.0; });
+    for (auto& v : vertices)
+        v = Vec<2>(std::cos(phase) * v.x() - std::sin(phase) * v.y(), std::sin(phase) * v.x() + std::cos(phase) * v.y());
+    return surface_of(vertices);
+}
+
+Projection project_from_nearest(const Surface<2>& surface, const Vec<2>& x)
+{
+    return project(surface, x, nearest_vertex(surface, x));
+}
+
+/// Largest error of the gap to the sampled circle of radius 1, at points |x| - 1 in [lo, hi].
+double circle_error(int count, double lo, double hi, Random& random)
+{
+    const Surface<2> surface = circle(count, random.uniform(0, 7));
+    double worst = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Vec<2> x = (1 + random.uniform(lo, hi)) * random.unit<2>();
+        worst = std::max(worst, std::abs(project_from_nearest(surface, x).gap - (x.norm() - 1)));
+    }
+    return worst;
+}
+
+// Over a chord c of a curve the cubic with the curve's own end values and tangents strays from it by |y''''| c^4 / 384
+// (Hermite). For the circle y'''' = 3 / R^3 and c = R theta: R theta^4 / 128, order 4. (The chord alone: R theta^2 / 8.)
+TEST(Projection, GapOfASampledCircleIsOfOrder4)
+{
+    Random random(1);
+    std::vector<double> error;
+    for (int count : { 16, 32, 64, 128 }) {
+        error.push_back(circle_error(count, -1e-3, 1e-3, random));
+        EXPECT_LE(error.back(), std::pow(2 * M_PI / count, 4) / 128 * 1.05) << count << " points";
+    }
+    for (size_t k = 1; k < error.size(); ++k)
+        EXPECT_NEAR(std::log2(error[k - 1] / error[k]), 4, 0.1);
+    std::printf("gap error of a circle of 16, 32, 64, 128 points: %.2e %.2e %.2e %.2e R\n", error[0], error[1], error[2], error[3]);
+}
+
+// End normals of equal length along the radii: interpolated along the chord they stay along the foot's radius.
+TEST(Projection, NormalOfASampledCircleIsRadial)
+{
+    Random random(2);
+    const Surface<2> surface = circle(24);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Vec<2> x = (1 + random.uniform(-1e-2, 1e-2)) * random.unit<2>();
+        ASSERT_LE((project_from_nearest(surface, x).normal - x.normalized()).norm(), 1e-14);
+    }
+}
+
+/// Smooth shapes, sampled; the largest turn of the boundary at a vertex [rad].
+struct Smooth {
+    std::string name;
+    Surface<2> surface;
+    double turn;
+};
+
+std::vector<Smooth> smooth_shapes()
+{
+    std::vector<Smooth> all { { "circle", circle(30), 0 },
+                              { "ellipse", surface_of(ellipse_vertices(60, 1.6, 1)), 0 },
+                              { "flower", surface_of(polar(100, [](double t) { return 1 + 0.1 * std::cos(4 * t); })), 0 } };
+    for (auto& shape : all) {
+        const auto& s = shape.surface;
+        for (int i = 0; i < s.count; ++i) {
+            const Vec<2> in = s.x((i + 1) % s.count) - s.x(i), out = s.x((i + 2) % s.count) - s.x((i + 1) % s.count);
+            shape.turn = std::max(shape.turn, std::abs(std::atan2(cross(in, out), in.dot(out))));
+        }
+    }
+    return all;
+}
+
+// Distance to the smoothed boundary, found by brute force on a fine sampling of it. The gap is measured along the
+// interpolated normal, which is off the shortest line by O(turn^3) at most where normal and cubic differ, and to the
+// cubic's height at the foot instead of its nearest point: O(turn^4) of the length in all.
+TEST(Projection, GapIsTheDistanceToTheSmoothedBoundary)
+{
+    Random random(3);
+    for (const auto& shape : smooth_shapes()) {
+        const auto curve = smoothed(shape.surface, 60);
+        double worst = 0;
+        for (int trial = 0; trial < 1500; ++trial) {
+            const int p = random.integer(0, shape.surface.count - 1);
+            const Vec<2> a = shape.surface.x(p), b = shape.surface.x((p + 1) % shape.surface.count);
+            const Vec<2> x = a + random.uniform(0, 1) * (b - a) + random.vector<2>(0.02);
+            const double gap = project_from_nearest(shape.surface, x).gap;
+            worst = std::max(worst, std::abs(gap - brute_force_distance(curve, x)));
+        }
+        // the fine polyline itself strays by (turn / 60)^2 / 8 of a radius of curvature
+        EXPECT_LE(worst, 0.05 * std::pow(shape.turn, 4) + std::pow(shape.turn / 60, 2)) << shape.name << " " << shape.turn;
+    }
+}
+
+// A normal contact force makes no couple when foot, point and normal are in line. Newton's two steps on the foot leave
+// the fourth power of a first error of (distance / radius of curvature) x (segment / radius of curvature).
+TEST(Projection, FootPointAndNormalAreInLine)
+{
+    Random random(4);
+    for (const auto& [distance, tolerance] : { std::make_pair(1e-3, 1e-15), std::make_pair(2e-2, 1e-12) })
+        for (const auto& shape : smooth_shapes())
+            for (int trial = 0; trial < 2000; ++trial) {
+                const int p = random.integer(0, shape.surface.count - 1);
+                const Vec<2> x = Vec<2>(shape.surface.x(p)) + random.vector<2>(distance);
+                const Projection at = project_from_nearest(shape.surface, x);
+                const Vec<2> foot = (1 - at.t) * shape.surface.x(at.segment)
+                    + at.t * shape.surface.x((at.segment + 1) % shape.surface.count);
+                ASSERT_GE(at.t, 0);
+                ASSERT_LE(at.t, 1);
+                ASSERT_NEAR(at.normal.norm(), 1, 1e-15);
+                ASSERT_NEAR(cross(x - foot, at.normal), 0, tolerance) << shape.name;
+            }
+}
+
+TEST(Projection, NormalAndGapAreContinuousAlongTheBoundary)
+{
+    for (const auto& shape : smooth_shapes()) {
+        // along a curve at a small distance, in steps of 1/200 of a segment
+        const auto curve = smoothed(shape.surface, 200);
+        Projection before {};
+        for (size_t i = 0; i < curve.size(); ++i) {
+            const Vec<2> along = (curve[(i + 1) % curve.size()] - curve[i]).normalized();
+            const Vec<2> x = curve[i] + 0.003 * Vec<2>(along.y(), -along.x());
+            const Projection at = project_from_nearest(shape.surface, x);
+            if (i > 0) {
+                // the normal turns by one `turn` a segment, here by 1/200 of it, twice that where curvature varies
+                ASSERT_LE((at.normal - before.normal).norm(), 2 * shape.turn / 200) << shape.name << " " << i;
+                ASSERT_LE(std::abs(at.gap - before.gap), 0.05 * std::pow(shape.turn, 4)) << shape.name << " " << i;
+            }
+            before = at;
+        }
+    }
+}
+
+TEST(Projection, ComesOutTheSameFromEveryNearStart)
+{
+    Random random(5);
+    for (const auto& shape : smooth_shapes())
+        for (int trial = 0; trial < 500; ++trial) {
+            const Vec<2> x = Vec<2>(shape.surface.x(random.integer(0, shape.surface.count - 1))) + random.vector<2>(0.02);
+            const int nearest = nearest_vertex(shape.surface, x), n = shape.surface.count;
+            const Projection at = project(shape.surface, x, nearest);
+            for (int off = -4; off <= 4; ++off) {
+                const Projection again = project(shape.surface, x, (nearest + off + n) % n);
+                ASSERT_NEAR(again.gap, at.gap, 1e-14) << shape.name << " from " << off;
+                ASSERT_LE((again.normal - at.normal).norm(), 1e-13) << shape.name << " from " << off;
+            }
+        }
+}
+
+// Straight faces have straight normals: near a polygon with sharp corners the gap is the distance to its faces; beyond
+// a corner it is taken along the bisector of the normals, and is no more than the distance.
+void expect_distances(const std::string& name, const std::vector<Vec<2>>& vertices, double spacing)
+{
+    Random random(6);
+    const Surface<2> surface = surface_of(PolygonOutline(vertices), spacing);
+    const auto curve = smoothed(surface, 1);
+    int faces = 0, corners = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+        const int p = random.integer(0, surface.count - 1);
+        const Vec<2> x = Vec<2>(surface.x(p)) + random.vector<2>(0.1);
+        const double distance = brute_force_distance(curve, x);
+        if (distance < -0.02) continue; // deep inside a corner it is another face's turn
+        const Projection at = project_from_nearest(surface, x);
+        const Vec<2> foot = (1 - at.t) * surface.x(at.segment) + at.t * surface.x((at.segment + 1) % surface.count);
+        if (std::abs(cross((x - foot).normalized(), at.normal)) > 1e-9) {
+            ++corners;
+            ASSERT_TRUE(surface.corner[at.segment]) << name;
+            ASSERT_EQ(at.t, 0) << name;
+            ASSERT_LE(at.gap, distance + 1e-13) << name;
+            ASSERT_GT(at.gap, 0) << name;
+            ASSERT_NEAR((x - foot).norm(), distance, 1e-13) << name;
+        } else if (distance > 0) {
+            ++faces;
+            ASSERT_NEAR(at.gap, distance, 1e-13) << name << " at " << x.transpose();
+        } else {
+            ++faces;
+            // inside: the distance to a face near by, if not to the nearest one
+            ASSERT_LE(at.gap, distance + 1e-13) << name << " at " << x.transpose();
+            ASSERT_GE(at.gap, -0.2) << name << " at " << x.transpose();
+        }
+    }
+    EXPECT_GT(faces, 1000) << name;
+    EXPECT_GT(corners, 20) << name;
+}
+
+TEST(Projection, PolygonWithCornersHasStraightFaces)
+{
+    for (double spacing : { 0.2, 10.0 }) {
+        expect_distances("rectangle", rectangle_vertices(2, 1), spacing);
+        expect_distances("hexagon", polar(6, [](double) { return 1.0; }), spacing);
+    }
+}
+
+// At a corner of less than 90 degrees a point outside of one face stands inside of the other face's line, and its foot
+// there lies on that face: the nearer face counts.
+TEST(Projection, PolygonWithAcuteCornersHasStraightFacesToo)
+{
+    for (double spacing : { 0.2, 10.0 })
+        expect_distances("triangle", { { 0, 0 }, { 2, 0.1 }, { 0.6, 1.5 } }, spacing);
+}
+
+TEST(NearestVertex, IsTheNearest)
+{
+    Random random(7);
+    const Surface<2> surface = surface_of(ellipse_vertices(37, 2, 1));
+    for (int trial = 0; trial < 500; ++trial) {
+        const Vec<2> x = random.vector<2>(3);
+        const int found = nearest_vertex(surface, x);
+        for (int i = 0; i < surface.count; ++i)
+            ASSERT_GE((surface.x(i) - x).norm(), (surface.x(found) - x).norm());
+    }
+}
+
+} // namespace

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "material/mooney_rivlin.hpp"
+#include "material/neo_hookean.hpp"
+#include "support/finite_difference.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace softgrain;
+using namespace softgrain::testing_support;
+
+namespace {
+
+template <class L, int D> struct Case {
+    using Law = L;
+    static constexpr int Dim = D;
+};
+
+/// Constants [Pa] of the order of 1, away from special values.
+std::vector<double> constants(const NeoHookean&) { return { 2.3, 0.7 }; }
+std::vector<double> constants(const MooneyRivlin&) { return { 0.63, 0.17, 3.1 }; }
+/// Small-strain lambda and mu, Vu et al. 2017 (below eqs. 7 and 8).
+std::pair<double, double> lame(const NeoHookean&, const std::vector<double>& p) { return { p[0], p[1] }; }
+std::pair<double, double> lame(const MooneyRivlin&, const std::vector<double>& p)
+{
+    return { 2 * p[2] + 4 * p[1], 2 * (p[0] + p[1]) };
+}
+
+template <class C> class LawIn : public ::testing::Test {
+protected:
+    using Law = typename C::Law;
+    static constexpr int Dim = C::Dim;
+    const std::vector<double> p = constants(Law());
+
+    static Tensor<Dim, double> tensor(const Mat<Dim>& F)
+    {
+        Tensor<Dim, double> T;
+        for (int i = 0; i < Dim; ++i)
+            for (int j = 0; j < Dim; ++j)
+                T.at[i][j] = F(i, j);
+        return T;
+    }
+    /// W = U(J) + w(F) [J/m3].
+    double energy(const Mat<Dim>& F) const
+    {
+        return Law::volumetric_energy(p.data(), F.determinant()) + Law::template energy<Dim, double>(p.data(), tensor(F));
+    }
+    /// P = U'(J) cof F + dw/dF [Pa].
+    Mat<Dim> stress(const Mat<Dim>& F) const
+    {
+        const auto T = tensor(F), cof = cofactor(T);
+        const double J = determinant(T), slope = Law::volumetric_slope(p.data(), J, 1 / J);
+        Tensor<Dim, double> P;
+        Law::template stress<Dim, double>(p.data(), T, cof, 1 / J, P);
+        Mat<Dim> sum;
+        for (int i = 0; i < Dim; ++i)
+            for (int j = 0; j < Dim; ++j)
+                sum(i, j) = P.at[i][j] + slope * cof.at[i][j];
+        return sum;
+    }
+    static Mat<Dim> deformation(Random& random)
+    {
+        for (;;) {
+            const Mat<Dim> F = Mat<Dim>::Identity() + random.matrix<Dim>(0.35);
+            if (F.determinant() > 0.3) return F;
+        }
+    }
+};
+
+using Cases = ::testing::Types<Case<NeoHookean, 2>, Case<NeoHookean, 3>, Case<MooneyRivlin, 2>, Case<MooneyRivlin, 3>>;
+TYPED_TEST_SUITE(LawIn, Cases);
+
+// P = dW/dF (Holzapfel 2000, eq. 6.1).
+TYPED_TEST(LawIn, StressIsTheSlopeOfTheEnergy)
+{
+    constexpr int Dim = TypeParam::Dim;
+    Random random(1);
+    for (int trial = 0; trial < 100; ++trial) {
+        const Mat<Dim> F = this->deformation(random);
+        const auto slope = central_gradient(
+            [&](const std::vector<double>& f) { return this->energy(Eigen::Map<const Mat<Dim>>(f.data())); },
+            std::vector<double>(F.data(), F.data() + Dim * Dim), 1e-3);
+        const Mat<Dim> P = this->stress(F);
+        // h^4 times the fifth derivative, some hundreds (of ln J down to J = 0.3), over 30; eps / h = 2e-13
+        EXPECT_LE((P - Eigen::Map<const Mat<Dim>>(slope.data())).cwiseAbs().maxCoeff(), 1e-9 * (1 + P.norm()));
+    }
+}
+
+TYPED_TEST(LawIn, VolumetricSlopeIsTheSlopeOfTheVolumetricEnergy)
+{
+    using Law = typename TypeParam::Law;
+    for (double J = 0.3; J < 2; J += 0.1) {
+        const auto U = [&](const std::vector<double>& at) { return Law::volumetric_energy(this->p.data(), at[0]); };
+        EXPECT_NEAR(central_gradient(U, { J }, 1e-3)[0], Law::volumetric_slope(this->p.data(), J, 1 / J), 1e-8);
+    }
+}
+
+// The laws as Vu et al. 2017 give them, eqs. 7 and 8: P = F S.
+TYPED_TEST(LawIn, StressIsThePapersFormula)
+{
+    using Law = typename TypeParam::Law;
+    constexpr int Dim = TypeParam::Dim;
+    Random random(2);
+    for (int trial = 0; trial < 100; ++trial) {
+        const Mat<Dim> F = this->deformation(random), I = Mat<Dim>::Identity(), C = F.transpose() * F;
+        const double J = F.determinant(), trace = C.trace() + 3 - Dim;
+        Mat<Dim> S;
+        if constexpr (std::is_same_v<Law, NeoHookean>)
+            S = (this->p[0] * std::log(J) - this->p[1]) * C.inverse() + this->p[1] * I;
+        else {
+            const double c1 = this->p[0], c2 = this->p[1], c = this->p[2], d = 2 * (c1 + 2 * c2);
+            S = 2 * (c1 + c2 * trace) * I - 2 * c2 * C + (2 * c * J * (J - 1) - d) * C.inverse();
+        }
+        EXPECT_LE((this->stress(F) - F * S).norm(), 1e-13 * (1 + (F * S).norm()));
+    }
+}
+
+TYPED_TEST(LawIn, UndeformedIsFreeOfStressAndEnergy)
+{
+    constexpr int Dim = TypeParam::Dim;
+    EXPECT_NEAR(this->energy(Mat<Dim>::Identity()), 0, 1e-15);
+    EXPECT_LE(this->stress(Mat<Dim>::Identity()).norm(), 1e-15);
+}
+
+// W(Q F) = W(F), P(Q F) = Q P(F); isotropy: W(F Q) = W(F).
+TYPED_TEST(LawIn, DoesNotSeeRotations)
+{
+    constexpr int Dim = TypeParam::Dim;
+    Random random(3);
+    for (int trial = 0; trial < 100; ++trial) {
+        const Mat<Dim> F = this->deformation(random), Q = random.rotation<Dim>();
+        EXPECT_NEAR(this->energy(Q * F), this->energy(F), 1e-13);
+        EXPECT_NEAR(this->energy(F * Q), this->energy(F), 1e-13);
+        EXPECT_LE((this->stress(Q * F) - Q * this->stress(F)).norm(), 1e-13 * (1 + this->stress(F).norm()));
+        const Mat<Dim> kirchhoff = this->stress(F) * F.transpose(); // symmetric: no couple on a point
+        EXPECT_LE((kirchhoff - kirchhoff.transpose()).norm(), 1e-13 * (1 + kirchhoff.norm()));
+    }
+}
+
+// Small strains e: P = lambda tr(e) I + 2 mu e + O(e^2); plane strain has the same form.
+TYPED_TEST(LawIn, SmallStrainsAreHookes)
+{
+    using Law = typename TypeParam::Law;
+    constexpr int Dim = TypeParam::Dim;
+    const auto [lambda, mu] = lame(Law(), this->p);
+    Random random(4);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Mat<Dim> A = random.matrix<Dim>(1), I = Mat<Dim>::Identity();
+        constexpr double h = 1e-4;
+        // the difference of +h and -h has no h^2 term: h^2 times the third derivative remains
+        const Mat<Dim> slope = (this->stress(I + h * A) - this->stress(I - h * A)) / (2 * h);
+        const Mat<Dim> hooke = lambda * A.trace() * I + mu * (A + A.transpose());
+        EXPECT_LE((slope - hooke).norm(), 1e3 * h * h);
+    }
+    EXPECT_NEAR(Law::wave_modulus(this->p.data()), lambda + 2 * mu, 1e-14);
+}
+
+TYPED_TEST(LawIn, LanesAgreeWithOneLane)
+{
+    using Law = typename TypeParam::Law;
+    constexpr int Dim = TypeParam::Dim, lanes = 4;
+    using Wide = typename Lanes<lanes>::Value;
+    Random random(5);
+    Wide p[4];
+    for (size_t k = 0; k < this->p.size(); ++k)
+        p[k] = broadcast<Wide>(this->p[k]);
+    Mat<Dim> F[lanes];
+    Tensor<Dim, Wide> wide, P;
+    for (int l = 0; l < lanes; ++l) {
+        F[l] = this->deformation(random);
+        for (int i = 0; i < Dim; ++i)
+            for (int j = 0; j < Dim; ++j)
+                wide.at[i][j][l] = F[l](i, j);
+    }
+    const Wide J = determinant(wide), inverse_J = 1.0 / J;
+    const Tensor<Dim, Wide> cof = cofactor(wide);
+    Law::template stress<Dim, Wide>(p, wide, cof, inverse_J, P);
+    const Wide slope = Law::volumetric_slope(p, J, inverse_J);
+    const Wide W = Law::volumetric_energy(p, J) + Law::template energy<Dim, Wide>(p, wide);
+    for (int l = 0; l < lanes; ++l) {
+        EXPECT_NEAR(W[l], this->energy(F[l]), 1e-13);
+        const Mat<Dim> expected = this->stress(F[l]);
+        for (int i = 0; i < Dim; ++i)
+            for (int j = 0; j < Dim; ++j)
+                EXPECT_NEAR(P.at[i][j][l] + slope[l] * cof.at[i][j][l], expected(i, j), 1e-13 * (1 + expected.norm()));
+    }
+}
+
+template <class Law> void expect_complaint(std::vector<double> p, const std::vector<std::string>& words)
+{
+    const std::string complaint = Law::complaint(p.data());
+    if (words.empty()) { EXPECT_EQ(complaint, ""); }
+    for (const auto& word : words)
+        EXPECT_NE(complaint.find(word), std::string::npos) << "'" << word << "' is missing in: " << complaint;
+}
+
+const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+
+TEST(NeoHookeanComplaint, NamesTheConstantAndItsValue)
+{
+    expect_complaint<NeoHookean>({ 61e6, 1.26e6 }, {});
+    expect_complaint<NeoHookean>({ 0, 1 }, {});
+    expect_complaint<NeoHookean>({ -0.6, 1 }, {}); // bulk modulus 0.067
+    expect_complaint<NeoHookean>({ 1, 0 }, { "mu = 0", "positive" });
+    expect_complaint<NeoHookean>({ 1, -2.5 }, { "mu = -2.5" });
+    expect_complaint<NeoHookean>({ 1, nan }, { "mu" });
+    expect_complaint<NeoHookean>({ 1, inf }, { "mu" });
+    expect_complaint<NeoHookean>({ -0.7, 1 }, { "lambda = -0.7", "-0.666667" });
+    expect_complaint<NeoHookean>({ nan, 1 }, { "lambda" });
+    expect_complaint<NeoHookean>({ inf, 1 }, { "lambda" });
+}
+
+TEST(MooneyRivlinComplaint, NamesTheModulusAndItsValue)
+{
+    expect_complaint<MooneyRivlin>({ 0.63e6, -0.0012e6, 6e6 }, {});
+    expect_complaint<MooneyRivlin>({ 1, -1, 5 }, { "shear modulus", "= 0 Pa" });
+    expect_complaint<MooneyRivlin>({ 1, -2, 5 }, { "shear modulus", "-2" });
+    expect_complaint<MooneyRivlin>({ nan, 0, 5 }, { "shear modulus" });
+    expect_complaint<MooneyRivlin>({ 1, 0, -1 }, { "bulk modulus", "-0.666667", "raise c = -1" });
+    expect_complaint<MooneyRivlin>({ 1, 0, nan }, { "bulk modulus" });
+    expect_complaint<MooneyRivlin>({ 1, 0, inf }, { "bulk modulus" });
+}
+
+TEST(LawNames, AreThoseOfTheFilesAndMessages)
+{
+    EXPECT_STREQ(NeoHookean::name, "Neo-Hookean");
+    EXPECT_STREQ(NeoHookean::parameters[0], "lambda");
+    EXPECT_STREQ(NeoHookean::parameters[1], "mu");
+    EXPECT_STREQ(MooneyRivlin::name, "Mooney-Rivlin");
+    EXPECT_STREQ(MooneyRivlin::parameters[0], "c1");
+    EXPECT_STREQ(MooneyRivlin::parameters[1], "c2");
+    EXPECT_STREQ(MooneyRivlin::parameters[2], "c");
+}
+
+} // namespace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Materials of the reference solutions, and grains made of them.
+#pragma once
+
+#include "step/grain.hpp"
+
+#include <Eigen/Geometry>
+
+namespace softgrain::testing_support {
+
+struct Material {
+    const char* law;
+    std::array<double, max_parameters> parameters; ///< [Pa]
+};
+
+inline Material neo_hookean() { return { "Neo-Hookean", { 61e6, 1.26e6 } }; }
+inline Material soft_neo_hookean() { return { "Neo-Hookean", { 1e6, 1e6 } }; }
+inline Material mooney_rivlin() { return { "Mooney-Rivlin", { 0.63e6, -0.0012e6, 6e6 } }; }
+
+inline std::shared_ptr<const Discretisation<2>> disc_mesh(int points, double offset_x = 0, double offset_y = 0)
+{
+    Resolution resolution;
+    resolution.points = points;
+    resolution.offset = { offset_x, offset_y, 0 };
+    return std::make_shared<Discretisation<2>>(DiscOutline(), resolution);
+}
+
+inline Mat<2> turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
+/// Velocity gradient of a rigid spin [1/s].
+inline Mat<2> spin(double rate) { return (Mat<2>() << 0, -rate, rate, 0).finished(); }
+
+struct GrainStart {
+    Vec<2> centre = Vec<2>::Zero();
+    double angle = 0;
+    Vec<2> velocity = Vec<2>::Zero();
+    Mat<2> velocity_gradient = Mat<2>::Zero();
+};
+
+inline Grain<2> make_grain(std::shared_ptr<const Discretisation<2>> mesh, const Material& material,
+                           const GrainStart& start = {}, double radius = 1e-3, double density = 1000)
+{
+    Grain<2> grain;
+    grain.id = 0;
+    grain.mesh = std::move(mesh);
+    grain.law = &law_kernels<2>(material.law);
+    grain.parameters = material.parameters;
+    grain.density = density;
+    grain.radius = radius;
+    grain.place(start.centre, turn(start.angle), start.velocity, start.velocity_gradient);
+    return grain;
+}
+
+} // namespace softgrain::testing_support

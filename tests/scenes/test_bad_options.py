@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bad options of the examples: one sentence on stderr, exit code 2, no traceback; nothing is overwritten."""
+import contextlib
+import io
+import os
+import runpy
+import sys
+
+from yade import O
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from scene_testing import EXAMPLES, Folder, is_sentence, run_tests  # noqa: E402
+
+# example, options, words that the sentence has to hold
+BAD = [
+    ("compaction", ["--grain", "3"], ["--grain", "--help"]),
+    ("compaction", ["--grains", "none"], ["--grains", "none"]),
+    ("compaction", ["--grains", "0"], ["--grains", "0"]),
+    ("compaction", ["--points", "5"], ["points", "5", "16"]),
+    ("compaction", ["--speed", "-1"], ["--speed", "-1"]),
+    ("compaction", ["--speed", "nan"], ["--speed", "nan"]),
+    ("compaction", ["--mu", "-1e6"], ["--mu", "-1e6"]),
+    ("compaction", ["--density", "0"], ["--density", "0"]),
+    ("compaction", ["--friction", "-0.3"], ["--friction", "-0.3"]),
+    ("compaction", ["--diameters", "2e-3", "1e-3"], ["diameters", "0.002"]),
+    ("compaction", ["--diameters", "2e-3"], ["--diameters"]),
+    ("compaction", ["--solid-fraction", "0.83"], ["0.83", "out of reach"]),
+    ("compaction", ["--until", "0.6"], ["--until", "0.6", "0.65"]),
+    ("compaction", ["--material", "rubber"], ["--material", "rubber"]),
+    ("compaction", ["--seed", "-4"], ["--seed", "-4"]),
+    ("compaction", ["--integrator", "implicit"], ["implicit", "not there yet"]),
+    ("compaction", ["--formulation", "updated"], ["updated", "not there yet"]),
+    ("compaction", ["--threads", "0"], ["--threads", "0"]),
+    ("compaction", ["--out", "/proc/nowhere"], ["/proc/nowhere", "--out"]),
+    ("compaction", ["surplus"], ["surplus"]),
+    ("squeeze", ["--walls", "3"], ["--walls", "3"]),
+    ("squeeze", ["--radius", "0"], ["--radius", "0"]),
+    ("squeeze", ["--squeeze", "0.95"], ["--squeeze", "0.95"]),
+    ("squeeze", ["--quasistatic"], ["--quasistatic", "not there yet"]),
+    ("rigid_compaction", ["--stiffness", "-1"], ["--stiffness", "-1"]),
+    ("rigid_compaction", ["--damping", "1"], ["--damping", "1"]),
+    ("rigid_compaction", ["--points", "60"], ["--points"]),
+]
+
+
+def run_inside(example, options):
+    """Runs an example in this process: exit code, stdout, stderr."""
+    arguments, out, err = sys.argv, io.StringIO(), io.StringIO()
+    path = os.path.join(EXAMPLES, f"{example}.py")
+    sys.argv = [path, *options]
+    O.reset()
+    try:
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            runpy.run_path(path, init_globals=dict(globals()), run_name="__main__")
+        code = None
+    except SystemExit as end:
+        code = end.code
+    finally:
+        sys.argv = arguments
+    return code, out.getvalue(), err.getvalue()
+
+
+def bad_options_are_refused(checks):
+    with Folder() as folder:
+        for example, options, words in BAD:
+            there = [] if "--out" in options else ["--out", os.path.join(folder, "bad")]
+            code, out, err = run_inside(example, options + there)
+            name = f"{example} {' '.join(options)}"
+            checks.that(f"{name}: exit code 2", code == 2, f"exit code {code}, {out}{err}")
+            missing = [word for word in words if word not in err]
+            checks.that(f"{name}: one sentence", is_sentence(err.strip()) and not missing,
+                        f"said {err!r}, lacks {missing}")
+        summary = os.path.join(folder, "bad", "summary.json")
+        checks.that("nothing is left that looks like a finished run", not os.path.exists(summary))
+
+
+def help_is_there(checks):
+    for example in ("compaction", "squeeze", "rigid_compaction"):
+        code, out, _ = run_inside(example, ["--help"])
+        checks.that(f"{example} --help", code == 0 and "--resume" in out and "--out" in out, out[:300])
+
+
+def a_finished_run_is_not_overwritten(checks):
+    with Folder() as folder:
+        out = os.path.join(folder, "run")
+        common = ["--out", out, "--grains", "8", "--until", "0.7"]
+        code, _, err = run_inside("rigid_compaction", common)
+        checks.that("a small run", code == 0, err)
+        csv = os.path.join(out, "rigid_compaction.csv")
+        with open(csv, encoding="ascii") as file:
+            before = file.read()
+        code, _, err = run_inside("rigid_compaction", common)
+        checks.that("is not overwritten", code == 2 and "--force" in err and is_sentence(err.strip()), err)
+        code, _, err = run_inside("squeeze", ["--out", out, "--resume"])
+        checks.that("is not taken for one of another example", code == 2 and "rigid_compaction" in err, err)
+        code, _, err = run_inside("rigid_compaction", [*common, "--resume", "--seed", "5"])
+        checks.that("is not resumed with another seed", code == 2 and "--seed" in err, err)
+        with open(csv, encoding="ascii") as file:
+            checks.that("and is still what it was", file.read() == before)
+        code, _, err = run_inside("rigid_compaction", [*common, "--force", "--seed", "5"])
+        with open(csv, encoding="ascii") as file:
+            checks.that("--force overwrites", code == 0 and file.read() != before, err)
+
+
+run_tests(bad_options_are_refused, help_is_there, a_finished_run_is_not_overwritten)

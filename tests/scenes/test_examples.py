@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every example, short, inside the real yade: exit code 0, the files, the csv columns, and figures from two runs."""
+import json
+import os
+import subprocess
+import sys
+
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from scene_testing import EXAMPLES, Folder, run_example, run_tests, said  # noqa: E402
+from softgrain.records import read_table  # noqa: E402
+
+COMPACTION = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
+              "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
+              "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s")
+SQUEEZE = ("squeeze,force_per_thickness_N_m,contact_half_width_m,area_ratio,half_width_m,solid_fraction,min_J,cpu_s")
+
+
+def header(path):
+    with open(path, encoding="ascii") as file:
+        return file.readline().strip()
+
+
+def load(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def compaction(checks):
+    with Folder() as folder:
+        for material in ("nh", "mr"):
+            run = run_example(folder, "compaction.py", "--quick", "--material", material, "--out", material)
+            checks.that(f"compaction --quick --material {material}", run.returncode == 0, said(run))
+            out = os.path.join(folder, material)
+            checks.that("columns", header(os.path.join(out, "compaction.csv")) == COMPACTION)
+            for number in range(1, 6):
+                path = os.path.join(out, f"figure{number}.png")
+                checks.that(f"figure {number}", os.path.exists(path) and os.path.getsize(path) > 10000)
+            table, summary = read_table(os.path.join(out, "compaction.csv")), load(os.path.join(out, "summary.json"))
+            left = table["log_volume_change"]
+            right = numpy.log(table["solid_fraction"] / 0.65) - table["strain"]
+            checks.that("eq. 9 holds in every row", abs(left - right).max() < 1e-6, abs(left - right).max())
+            checks.that("strain grows", (numpy.diff(table["strain"]) > 0).all())
+            checks.that("time grows", (numpy.diff(table["time_s"]) > 0).all())
+            checks.that("summary",
+                        {"parameters", "seed", "versions", "jamming", "equation_10", "cost"} <= set(summary))
+            checks.that("costs", {"cpu_s", "wall_s", "steps", "ns_per_point_step", "stage_share"}
+                        <= set(summary["cost"]))
+            work = table["external_work_J"][-1]
+            impulses = table["stress_top_Pa"] * numpy.diff(table["time_s"], prepend=0)
+            summed = numpy.sum(impulses) * summary["box"]["width_m"] * summary["parameters"]["speed"]
+            checks.that("the work is that of the moving wall's force", abs(summed / work - 1) < 0.01, summed / work)
+        figures_of_two_runs(checks, folder)
+
+
+def figures_of_two_runs(checks, folder):
+    """figures.py outside yade."""
+    script = os.path.join(EXAMPLES, "figures.py")
+    both = subprocess.run(["/usr/bin/python3", script, "nh", "mr", "--out", "both"], cwd=folder, capture_output=True,
+                          text=True, check=False)
+    checks.that("figures of two runs", both.returncode == 0 and len(os.listdir(os.path.join(folder, "both"))) == 5,
+                both.stderr)
+    none = subprocess.run(["/usr/bin/python3", script, "."], cwd=folder, capture_output=True, text=True, check=False)
+    checks.that("figures of nothing", none.returncode == 2 and "Traceback" not in none.stderr, none.stderr)
+
+
+def compaction_with_friction(checks):
+    with Folder() as folder:
+        run = run_example(folder, "compaction.py", "--quick", "--friction", "0.3", "--wall-friction", "0.3")
+        checks.that("compaction --friction 0.3", run.returncode == 0, said(run))
+        table = read_table(os.path.join(folder, "compaction", "compaction.csv"))
+        checks.that("friction dissipates", table["friction_J"][-1] > 0.01 * table["external_work_J"][-1],
+                    table["friction_J"][-1])
+        checks.that("and never gives back", (numpy.diff(table["friction_J"]) >= -1e-9).all())
+
+
+def squeeze(checks):
+    with Folder() as folder:
+        for material in ("nh", "mr"):
+            run = run_example(folder, "squeeze.py", "--quick", "--material", material, "--out", material)
+            checks.that(f"squeeze --quick --material {material}", run.returncode == 0, said(run))
+            checks.that("columns", header(os.path.join(folder, material, "squeeze.csv")) == SQUEEZE)
+        run = run_example(folder, "squeeze.py", "--quick", "--walls", "4", "--out", "four")
+        checks.that("squeeze --walls 4", run.returncode == 0, said(run))
+        table = read_table(os.path.join(folder, "four", "squeeze.csv"))
+        wide = table["half_width_m"] / (1e-3 * (1 - table["squeeze"])) - 1
+        checks.that("half-width is that of the square", abs(wide).max() < 5e-3, abs(wide).max())
+
+
+def rigid_compaction(checks):
+    with Folder() as folder:
+        run = run_example(folder, "rigid_compaction.py", "--quick")
+        checks.that("rigid_compaction --quick", run.returncode == 0, said(run))
+        out = os.path.join(folder, "rigid_compaction")
+        checks.that("columns", header(os.path.join(out, "rigid_compaction.csv")) == COMPACTION)
+        table = read_table(os.path.join(out, "rigid_compaction.csv"))
+        checks.that("volume does not change", abs(table["log_volume_change"]).max() < 1e-12)
+
+
+run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Soft grains as YADE's own bodies: save, load, reload, erase, several scenes, PyRunner, O.run, O.trackEnergy."""
+import os
+import sys
+
+import numpy
+from yade import O
+from yade.wrapper import FrictMat, PyRunner
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from scene_testing import Folder, run_tests  # noqa: E402
+from softgrain import (NeoHookeanMat, arrays, measures, softBox, softCloud, softDisc, softEngines,  # noqa: E402
+                       softPolygon)
+
+WIDTH, SPEED = 8e-3, 2.0
+
+
+def compaction_scene(more=()):
+    """Fifteen grains under a wall that comes down fast; the wall's id."""
+    O.reset()
+    soft = O.materials.append(NeoHookeanMat(frictionAngle=0.2))
+    rigid = O.materials.append(FrictMat(frictionAngle=0.1))
+    grains, height = softCloud(WIDTH, 15, (1.4e-3, 2.4e-3), 0.65, soft, points=60, seed=2)
+    O.bodies.append(grains)
+    top = O.bodies.append(softBox(WIDTH, height, rigid))[-1]
+    O.bodies[top].state.vel = (0, -SPEED, 0)
+    O.engines = softEngines(more=list(more))
+    return top
+
+
+def everything(top):
+    """All that a step changes, as one array."""
+    soft = measures.softIntegrator()
+    parts = [arrays.points(body).ravel() / WIDTH for body in measures.softBodies()]
+    parts += [arrays.pointVelocities(body).ravel() / SPEED for body in measures.softBodies()]
+    parts.append([O.bodies[top].state.pos[1] / WIDTH, O.time * SPEED / WIDTH, soft.externalWork, soft.elasticEnergy(),
+                  soft.kineticEnergy(), soft.frictionDissipation, soft.contactDissipation, O.forces.f(top)[1] / 1e6])
+    return numpy.concatenate(parts)
+
+
+def continued_equals_uninterrupted(checks):
+    with Folder() as folder:
+        for ending in ("yade", "xml", "yade.gz", "xml.bz2"):
+            top = compaction_scene()
+            for _ in range(600):     # a step at which the time step is renewed
+                O.step()
+            path = os.path.join(folder, f"scene.{ending}")
+            O.save(path, quiet=True)
+            for _ in range(300):
+                O.step()
+            expected = everything(top)
+            O.reset()
+            O.load(path, quiet=True)
+            for _ in range(300):
+                O.step()
+            difference = abs(everything(top) - expected).max()
+            checks.that(f"continued from scene.{ending}", difference < 1e-9, difference)
+
+
+def reload_begins_anew(checks):
+    top = compaction_scene()
+    for _ in range(50):
+        O.step()
+    O.saveTmp(quiet=True)
+    for _ in range(100):
+        O.step()
+    expected = everything(top)
+    O.reload(quiet=True)
+    for _ in range(100):
+        O.step()
+    difference = abs(everything(top) - expected).max()
+    checks.that("O.reload", difference < 1e-9, difference)
+
+
+def grains_can_be_erased_and_added(checks):
+    compaction_scene()
+    for _ in range(300):
+        O.step()
+    before = len(measures.softBodies())
+    O.bodies.erase(3)
+    for _ in range(50):
+        O.step()
+    checks.that("erased", len(measures.softBodies()) == before - 1 and O.bodies[3] is None)
+    soft = measures.softIntegrator()
+    checks.close_to("its area is gone", soft.solidArea() / measures.referenceArea(), 1, 0.01)
+    checks.that("no contact with it", all(3 not in pair for pair in measures.contactPairs()))
+    O.bodies.append(softDisc((20e-3, 20e-3), 1e-3, 0, points=60))
+    for _ in range(50):
+        O.step()
+    checks.that("added", len(measures.softBodies()) == before)
+
+
+def scenes_do_not_disturb_each_other(checks):
+    top = compaction_scene()
+    for _ in range(100):
+        O.step()
+    first = O.thisScene
+    second = O.addScene()
+    O.switchToScene(second)
+    O.materials.append(NeoHookeanMat())
+    O.bodies.append(softDisc((0, 0), 1e-3, points=60, velocity=(1, 0, 0)))
+    O.engines = softEngines()
+    for _ in range(100):
+        O.step()
+    checks.close_to("the second scene's disc flies", O.bodies[0].state.pos[0], O.time, 1e-9)
+    O.switchToScene(first)
+    for _ in range(100):
+        O.step()
+    found = everything(top)
+    top = compaction_scene()
+    for _ in range(200):
+        O.step()
+    checks.that("the first scene goes on as if alone", abs(found - everything(top)).max() < 1e-12)
+
+
+def engines_of_yade_work_along(checks):
+    top = compaction_scene([PyRunner(command="seen.append(O.iter)", iterPeriod=20)])
+    import builtins
+    builtins.seen = []
+    O.trackEnergy = True
+    O.run(200, True)
+    checks.that("O.run", O.iter == 200, O.iter)
+    checks.that("PyRunner", len(builtins.seen) in (9, 10), builtins.seen)
+    soft = measures.softIntegrator()
+    tracked = dict(O.energy.items())
+    checks.close_to("O.trackEnergy: elastic", tracked["softElastic"], soft.elasticEnergy(), 1e-12)
+    checks.that("wall reaction in O.forces", abs(O.forces.f(top)[1]) >= 0)
+
+
+def bodies_move_as_bodies(checks):
+    O.reset()
+    O.materials.append(NeoHookeanMat())
+    hexagon = [(1e-3 * numpy.cos(a), 5e-3 + 1e-3 * numpy.sin(a), 0) for a in numpy.arange(6) * numpy.pi / 3]
+    O.bodies.append([softDisc((0, 0), 1e-3, velocity=(2, 1, 0), points=60), softPolygon(hexagon, velocity=(0, 3, 0))])
+    O.engines = softEngines(gravity=(0, -9.81, 0))
+    for _ in range(500):
+        O.step()
+    disc, polygon = O.bodies[0].state, O.bodies[1].state
+    time, step = O.time, O.dt
+    checks.close_to("x of the disc", disc.pos[0], 2 * time, 1e-12)
+    checks.close_to("y of the disc", disc.pos[1], time - 9.81 / 2 * time**2, 9.81 * time * step)
+    checks.close_to("velocity of the polygon", polygon.vel[1], 3 - 9.81 * time, 1e-9)
+    checks.close_to("centroid of the polygon", polygon.pos[1], 5e-3 + 3 * time - 9.81 / 2 * time**2, 9.81 * time * step)
+    checks.close_to("area of the hexagon", O.bodies[1].shape.area(), 1.5 * 3**0.5 * 1e-6, 1e-12 * 1e-6)
+    checks.close_to("mass of the disc", disc.mass, 1000 * numpy.pi * 1e-6, 1e-12)
+
+
+run_tests(continued_equals_uninterrupted, reload_begins_anew, grains_can_be_erased_and_added,
+          scenes_do_not_disturb_each_other, engines_of_yade_work_along, bodies_move_as_bodies)

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A run that was interrupted or killed and resumed equals the uninterrupted one to round-off."""
+import json
+import os
+import signal
+import sys
+import time
+
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from scene_testing import Folder, run_example, run_tests, said, start_example  # noqa: E402
+from softgrain.records import read_table  # noqa: E402
+
+# A shared machine cannot be made to interrupt at the same step twice; so every column but the CPU time has to agree
+# wherever the interruption falls. Chaos doubles round-off about every few hundred steps: the tolerance allows for it.
+TOLERANCE = 1e-6
+RUNS = {"compaction": ["--grains", "25", "--points", "60", "--until", "0.85", "--seed", "3"],
+        "squeeze": ["--points", "124", "--squeeze", "0.2", "--speed", "0.05"],
+        "rigid_compaction": ["--grains", "40", "--speed", "0.3"]}
+
+
+def wait_for_rows(path, rows, process, seconds=60):
+    """Waits until the csv has so many lines; false when the process ends before."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        try:
+            with open(path, encoding="ascii") as file:
+                if file.read().count("\n") > rows:
+                    return True
+        except OSError:
+            pass
+        if process.poll() is not None:
+            return False
+        time.sleep(0.01)
+    return False
+
+
+def differences(one, other):
+    """Largest difference of each column but cpu_s, over the largest value of the column."""
+    found = {}
+    for column in one:
+        if column == "cpu_s":
+            continue
+        a, b = one[column], other[column]
+        if len(a) != len(b) or (numpy.isnan(a) != numpy.isnan(b)).any():
+            found[column] = numpy.inf
+        elif numpy.isfinite(a).any():
+            found[column] = float(numpy.nanmax(abs(a - b)) / max(numpy.nanmax(abs(a)), 1e-12))
+    return found
+
+
+def resumed_equals_uninterrupted(checks, name, signal_number, rows):
+    what = f"{name}, {signal_number.name} after {rows} rows"
+    with Folder() as folder:
+        whole = run_example(folder, f"{name}.py", "--out", "whole", *RUNS[name])
+        checks.that(f"{what}: whole run", whole.returncode == 0, said(whole))
+        process = start_example(folder, f"{name}.py", "--out", "parts", "--checkpoint-seconds", "0.05", *RUNS[name])
+        csv = os.path.join(folder, "parts", f"{name}.csv")
+        if not checks.that(f"{what}: reached", wait_for_rows(csv, rows, process), process.poll()):
+            return
+        process.send_signal(signal_number)
+        _, stderr = process.communicate(timeout=60)
+        if signal_number != signal.SIGKILL:
+            checks.that(f"{what}: says how to go on", process.returncode == 130 and "--resume" in stderr, stderr)
+        checks.that(f"{what}: not finished", not os.path.exists(os.path.join(folder, "parts", "summary.json")))
+        refused = run_example(folder, f"{name}.py", "--out", "parts", *RUNS[name])
+        checks.that(f"{what}: not overwritten", refused.returncode == 2 and "--resume" in refused.stderr, said(refused))
+        resumed = run_example(folder, f"{name}.py", "--out", "parts", "--resume")
+        checks.that(f"{what}: resumed", resumed.returncode == 0, said(resumed))
+        tables = [read_table(os.path.join(folder, part, f"{name}.csv")) for part in ("whole", "parts")]
+        worst = differences(*tables)
+        checks.that(f"{what}: equals the whole run", max(worst.values()) < TOLERANCE, worst)
+        summaries = []
+        for part in ("whole", "parts"):
+            with open(os.path.join(folder, part, "summary.json"), encoding="utf-8") as file:
+                summaries.append(json.load(file))
+        checks.that(f"{what}: same parameters", summaries[0]["parameters"] == summaries[1]["parameters"])
+        checks.that(f"{what}: same number of steps", summaries[0]["cost"]["steps"] == summaries[1]["cost"]["steps"],
+                    [summary["cost"]["steps"] for summary in summaries])
+
+
+def compaction_terminated(checks):
+    resumed_equals_uninterrupted(checks, "compaction", signal.SIGTERM, 30)
+
+
+def compaction_killed(checks):
+    resumed_equals_uninterrupted(checks, "compaction", signal.SIGKILL, 60)
+
+
+def squeeze_interrupted(checks):
+    resumed_equals_uninterrupted(checks, "squeeze", signal.SIGINT, 5)
+
+
+def rigid_compaction_terminated(checks):
+    resumed_equals_uninterrupted(checks, "rigid_compaction", signal.SIGTERM, 20)
+
+
+def a_finished_run_goes_on_to_a_higher_end(checks):
+    with Folder() as folder:
+        options = ["--grains", "20", "--points", "60"]
+        first = run_example(folder, "compaction.py", "--until", "0.7", *options)
+        more = run_example(folder, "compaction.py", "--resume", "--until", "0.75")
+        whole = run_example(folder, "compaction.py", "--out", "whole", "--until", "0.75", *options)
+        checks.that("three runs", not any(run.returncode for run in (first, more, whole)), said(more))
+        tables = [read_table(os.path.join(folder, part, "compaction.csv")) for part in ("compaction", "whole")]
+        worst = differences(*tables)
+        checks.that("continued equals whole", max(worst.values()) < TOLERANCE, worst)
+
+
+run_tests(compaction_terminated, compaction_killed, squeeze_interrupted, rigid_compaction_terminated,
+          a_finished_run_goes_on_to_a_higher_end)
