@@ -41,6 +41,7 @@ bool Ig2_Box_SoftGrain_SoftGeom::go(
         const bool&,
         const shared_ptr<Interaction>& interaction)
 {
+    if (!static_cast<const SoftState&>(state2).prepared()) return false;
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     Problems::guard([&] {

@@ -3,11 +3,13 @@
 
 #include <pkg/common/Box.hpp>
 
-#include "Ig2_SoftGrain_SoftGrain_SoftGeom.hpp"
+#include <core/Dispatching.hpp>
+
+#include "SoftGrain.hpp"
 
 namespace yade {
 
-class Ig2_Box_SoftGrain_SoftGeom : public SoftIGeomFunctor {
+class Ig2_Box_SoftGrain_SoftGeom : public IGeomFunctor {
 public:
     bool
     go(const shared_ptr<Shape>& shape1,
@@ -22,7 +24,7 @@ public:
     DEFINE_FUNCTOR_ORDER_2D(Box, SoftGrain);
     YADE_CLASS_BASE_DOC(
             Ig2_Box_SoftGrain_SoftGeom,
-            SoftIGeomFunctor,
+            IGeomFunctor,
             "Contact points of a soft grain with a :yref:`Box`, seen as the rectangle it cuts from the plane of the grains: turned about the z "
             "axis only, fixed or with given velocities.");
 };

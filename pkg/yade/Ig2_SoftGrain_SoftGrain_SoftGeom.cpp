@@ -3,24 +3,11 @@
 
 #include "Problems.hpp"
 #include "SoftGeom.hpp"
-#include "SoftIntegrator.hpp"
 #include "SoftState.hpp"
 
 namespace yade {
 
-YADE_PLUGIN((SoftIGeomFunctor)(Ig2_SoftGrain_SoftGrain_SoftGeom));
-
-void SoftIGeomFunctor::preStep()
-{
-    Problems::raise();
-    bool integrated = false, soft = false;
-    for (const auto& engine : scene->engines)
-        integrated |= dynamic_cast<const SoftIntegrator*>(engine.get()) && !engine->dead;
-    if (integrated) return;
-    for (const auto& body : *scene->bodies)
-        soft |= softStateOf(*body) != nullptr;
-    if (soft) throw std::runtime_error("O.engines has no SoftIntegrator (or a dead one), so soft grains would stand still; append SoftIntegrator() or take softEngines().");
-}
+YADE_PLUGIN((Ig2_SoftGrain_SoftGrain_SoftGeom));
 
 bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(
         const shared_ptr<Shape>&,
@@ -31,6 +18,7 @@ bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(
         const bool&,
         const shared_ptr<Interaction>& interaction)
 {
+    if (!static_cast<const SoftState&>(state1).prepared() || !static_cast<const SoftState&>(state2).prepared()) return false;
     const auto& first  = static_cast<const SoftState&>(state1).grain.surface;
     const auto& second = static_cast<const SoftState&>(state2).grain.surface;
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);

@@ -7,22 +7,7 @@
 
 namespace yade {
 
-// Contact geometry of soft grains.
-//
-//   SoftIGeomFunctor                        what they share
-//     Ig2_SoftGrain_SoftGrain_SoftGeom
-//     Ig2_Wall_SoftGrain_SoftGeom
-//     Ig2_Box_SoftGrain_SoftGeom
-class SoftIGeomFunctor : public IGeomFunctor {
-public:
-    /// Refuses scenes that no SoftIntegrator advances; raises what functors noted.
-    void preStep() override;
-
-    YADE_CLASS_BASE_DOC(SoftIGeomFunctor, IGeomFunctor, "Base of the functors that make :yref:`SoftGeom`.");
-};
-REGISTER_SERIALIZABLE(SoftIGeomFunctor);
-
-class Ig2_SoftGrain_SoftGrain_SoftGeom : public SoftIGeomFunctor {
+class Ig2_SoftGrain_SoftGrain_SoftGeom : public IGeomFunctor {
 public:
     bool
     go(const shared_ptr<Shape>& shape1,
@@ -37,7 +22,7 @@ public:
     DEFINE_FUNCTOR_ORDER_2D(SoftGrain, SoftGrain);
     YADE_CLASS_BASE_DOC(
             Ig2_SoftGrain_SoftGrain_SoftGeom,
-            SoftIGeomFunctor,
+            IGeomFunctor,
             "Contact points of two soft grains: surface points of the smaller against the smoothed outline of the larger, and sharp corners of "
             "the larger against the smaller. Periodic scenes are not supported.");
 };

@@ -18,6 +18,7 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(
         const bool&,
         const shared_ptr<Interaction>& interaction)
 {
+    if (!static_cast<const SoftState&>(state2).prepared()) return false;
     const auto& wall  = static_cast<const Wall&>(*shape1);
     const auto& grain = static_cast<const SoftState&>(state2).grain;
     if (wall.axis > 1) return false;

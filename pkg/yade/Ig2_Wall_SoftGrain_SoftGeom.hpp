@@ -3,11 +3,13 @@
 
 #include <pkg/common/Wall.hpp>
 
-#include "Ig2_SoftGrain_SoftGrain_SoftGeom.hpp"
+#include <core/Dispatching.hpp>
+
+#include "SoftGrain.hpp"
 
 namespace yade {
 
-class Ig2_Wall_SoftGrain_SoftGeom : public SoftIGeomFunctor {
+class Ig2_Wall_SoftGrain_SoftGeom : public IGeomFunctor {
 public:
     bool
     go(const shared_ptr<Shape>& shape1,
@@ -22,7 +24,7 @@ public:
     DEFINE_FUNCTOR_ORDER_2D(Wall, SoftGrain);
     YADE_CLASS_BASE_DOC(
             Ig2_Wall_SoftGrain_SoftGeom,
-            SoftIGeomFunctor,
+            IGeomFunctor,
             "Contact points of a soft grain with a :yref:`Wall` of axis 0 or 1. The grain is on the wall's ``sense`` side; with sense 0 on the "
             "side where its centre was when they met. Walls of axis 2 lie in the plane of the grains and do not touch them.");
 };

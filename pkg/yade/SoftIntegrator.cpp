@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SoftIntegrator.hpp"
 
-#include "Bo1_SoftGrain_Aabb.hpp"
-#include "Ig2_SoftGrain_SoftGrain_SoftGeom.hpp"
 #include "Problems.hpp"
+#include "SceneCheck.hpp"
 #include "SoftTimeStepper.hpp"
-
-#include <core/InteractionLoop.hpp>
 
 #include <chrono>
 #include <omp.h>
@@ -51,6 +48,7 @@ void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 void SoftIntegrator::action()
 {
     Problems::raise();
+    requireSaneAttributes();
     adopt();
     if (states_.empty()) return;
     try {
@@ -97,7 +95,10 @@ void SoftIntegrator::advance(double dt)
     for (SoftState* state : states_)
         state->publish();
     requestCollider();
-    if (scene->iter % std::max(1, checkInterval) == 0) evaluate();
+    if (scene->iter % checkInterval == 0) {
+        requireSoftEngines(*scene);
+        evaluate();
+    }
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
 }
@@ -117,9 +118,7 @@ void SoftIntegrator::adopt()
     }
     if (unchanged && known == bodies_.size()) return;
 
-    requireFunctors();
-    if (gravity[2] != 0 || !gravity.allFinite())
-        throw std::runtime_error("SoftIntegrator: gravity has to be finite and to lie in the xy-plane (z component 0), the plane of the grains.");
+    requireSoftEngines(*scene);
     if (scene->isPeriodic) throw std::runtime_error("SoftIntegrator: periodic scenes (O.periodic=True) are not supported for soft grains; use walls.");
     assembly_.reset();
     bodies_.clear();
@@ -131,6 +130,10 @@ void SoftIntegrator::adopt()
         if (!state) continue;
         fresh_ |= !state->prepared() || scene->iter == body->iterBorn;
         state->prepare(*body);
+        if (!body->bound)
+            throw std::runtime_error(
+                    "soft grain #" + std::to_string(body->id)
+                    + " has no bounding box, so contacts would be missed; put Bo1_SoftGrain_Aabb() into InsertionSortCollider, and that before SoftIntegrator.");
         place_.resize(size_t(body->id) + 1, -1);
         place_[body->id] = int(states_.size());
         bodies_.push_back(body);
@@ -144,34 +147,17 @@ void SoftIntegrator::adopt()
     evaluate();
 }
 
-void SoftIntegrator::requireFunctors() const
+/// Attributes may be changed at any time.
+void SoftIntegrator::requireSaneAttributes() const
 {
-    bool bound = false, geom = false, phys = false, law = false;
-    for (const auto& engine : scene->engines)
-        if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
-            for (const auto& functor : loop->geomDispatcher->functors)
-                geom |= dynamic_cast<const Ig2_SoftGrain_SoftGrain_SoftGeom*>(functor.get()) != nullptr;
-            for (const auto& functor : loop->physDispatcher->functors)
-                phys |= functor->getClassName() == "Ip2_SoftMat_SoftMat_SoftPhys";
-            for (const auto& functor : loop->lawDispatcher->functors)
-                law |= functor->getClassName() == "Law2_SoftGeom_SoftPhys_ContactDynamics";
-        }
-    for (const auto& body : *scene->bodies)
-        if (softStateOf(*body) && body->bound) bound = true;
-    const auto demand = [](bool there, const char* what, const char* where) {
-        if (!there)
-            throw std::runtime_error(
-                    std::string("O.engines lacks ") + what + ", so soft grains would pass through each other; add it to " + where
-                    + ", or take softEngines().");
+    const auto demand = [](bool sane, const char* name, Real value, const char* range) {
+        if (!sane) throw std::runtime_error("SoftIntegrator: " + std::string(name) + " = " + softgrain::shown(value) + " has to " + range + ".");
     };
-    bool any = false;
-    for (const auto& body : *scene->bodies)
-        any |= softStateOf(*body) != nullptr;
-    if (!any) return;
-    demand(geom, "Ig2_SoftGrain_SoftGrain_SoftGeom", "InteractionLoop");
-    demand(phys, "Ip2_SoftMat_SoftMat_SoftPhys", "InteractionLoop");
-    demand(law, "Law2_SoftGeom_SoftPhys_ContactDynamics", "InteractionLoop");
-    demand(bound, "Bo1_SoftGrain_Aabb", "InsertionSortCollider");
+    demand(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "lie between 0 and 1");
+    demand(maxSweeps > 0, "maxSweeps", maxSweeps, "be 1 or more");
+    demand(recovery >= 0 && recovery <= 1, "recovery", recovery, "lie between 0 and 1");
+    demand(checkInterval > 0, "checkInterval", checkInterval, "be 1 or more");
+    demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2], "be 0 and the others finite: grains stay in the xy-plane");
 }
 
 /// All pairs in touch, by ascending ids of their bodies: the same order for every number of threads.

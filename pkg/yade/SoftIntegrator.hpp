@@ -87,7 +87,7 @@ private:
     };
     void adopt();
     void advance(double dt);
-    void requireFunctors() const;
+    void requireSaneAttributes() const;
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SoftMat.hpp"
 
+#include "SceneCheck.hpp"
 #include "SoftState.hpp"
+
+#include <core/Omega.hpp>
 
 namespace yade {
 
@@ -28,6 +31,17 @@ const softgrain::LawKernels<2>& SoftMat::law() const
 }
 
 shared_ptr<State> SoftMat::newAssocState() const { return shared_ptr<State>(new SoftState); }
-bool SoftMat::stateTypeOk(State* state) const { return dynamic_cast<SoftState*>(state) != nullptr; }
+bool SoftMat::stateTypeOk(State* state) const
+{
+    // YADE asks before the first step, outside its parallel loops: the place to look at the whole scene
+    const auto& scene = Omega::instance().getScene();
+    try {
+        requireSoftEngines(*scene);
+    } catch (...) {
+        scene->runInternalConsistencyChecks = true; // ask again before the next attempt
+        throw;
+    }
+    return dynamic_cast<SoftState*>(state) != nullptr;
+}
 
 } // namespace yade

@@ -32,16 +32,18 @@ namespace {
 
 SoftState* softStateOf(const Body& body)
 {
-    // a class index is an exact type: cheaper than a dynamic cast, and nothing derives from SoftState
-    return body.state && body.state->getClassIndex() == SoftState::getClassIndexStatic() ? static_cast<SoftState*>(body.state.get()) : nullptr;
+    // class indices are exact types: cheaper than dynamic casts, and nothing derives from these two; a rigid body of
+    // a soft material has a SoftState too
+    const bool soft = body.shape && body.shape->getClassIndex() == SoftGrain::getClassIndexStatic() && body.state
+            && body.state->getClassIndex() == SoftState::getClassIndexStatic();
+    return soft ? static_cast<SoftState*>(body.state.get()) : nullptr;
 }
 
 void SoftState::prepare(const Body& body)
 {
     if (prepared()) return;
     const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
-    auto* shape          = dynamic_cast<SoftGrain*>(body.shape.get());
-    if (!shape) throw softgrain::UserError(whose(body.id) + ": its state is a SoftState, its shape has to be a SoftGrain.");
+    auto* shape          = static_cast<SoftGrain*>(body.shape.get());
     if (!material) throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
     softgrain::Grain<2> fresh;
     try {

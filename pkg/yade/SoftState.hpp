@@ -59,7 +59,7 @@ private:
 };
 REGISTER_SERIALIZABLE(SoftState);
 
-/// The soft state of a body, or null for other bodies.
+/// The state of a soft grain, or null for other bodies.
 SoftState* softStateOf(const Body& body);
 
 } // namespace yade

@@ -8,7 +8,7 @@ using namespace softgrain::testing_support;
 
 namespace {
 
-const NonlinearGaussSeidel tight { 1e-14, 100000 };
+const NonlinearGaussSeidel tight { 1e-12, 100000 }; // a little above round-off
 
 // One contact: r_n = max(0, -q_n / W), and Coulomb's cut of the impulse that stops sliding.
 TEST(NonlinearGaussSeidel, SolvesASingleContactInClosedForm)
@@ -37,7 +37,7 @@ TEST(NonlinearGaussSeidel, LeavesVelocitiesThatMatchItsImpulses)
 {
     Random random(2);
     for (int trial = 0; trial < 30; ++trial) {
-        RandomProblem p(random, random.integer(1, 12), 0.3);
+        RandomProblem p(random, random.integer(1, 9), 0.3);
         const int sweeps = tight.solve(p.problem);
         const auto expected = p.velocities();
         for (size_t b = 0; b < expected.size(); ++b)
@@ -51,7 +51,7 @@ TEST(NonlinearGaussSeidel, LeavesNoResidual)
     Random random(3);
     for (double friction : { 0.0, 0.1, 0.3, 0.6 })
         for (int trial = 0; trial < 20; ++trial) {
-            RandomProblem p(random, random.integer(1, 12), friction);
+            RandomProblem p(random, random.integer(1, 9), friction);
             const int sweeps = tight.solve(p.problem);
             EXPECT_LT(sweeps, tight.max_sweeps);
             EXPECT_LE(p.problem.residual(), 1e-11) << friction << " " << p.problem.contacts.size();
@@ -65,20 +65,17 @@ TEST(NonlinearGaussSeidel, ResidualFollowsTheTolerance)
     Random random(4);
     for (double tolerance : { 1e-2, 1e-4, 1e-6, 1e-8 }) {
         double sum = 0;
-        int sweeps = 0, count = 0;
+        int sweeps = 0;
         for (int trial = 0; trial < 60; ++trial) {
-            RandomProblem p(random, 12, 0.2);
+            RandomProblem p(random, 0, 0);
+            p.press(random, 8, 0.2);
             sweeps += NonlinearGaussSeidel { tolerance, 10000 }.solve(p.problem);
-            const double residual = p.problem.residual();
-            if (residual < 1e-15) continue; // solved to round-off in the last sweep
-            sum += std::log(residual);
-            ++count;
+            sum += std::log(p.problem.residual());
         }
-        const double mean = std::exp(sum / count);
-        EXPECT_GT(count, 50);
+        const double mean = std::exp(sum / 60);
         EXPECT_LE(mean, 2 * tolerance);
         EXPECT_GE(mean, 0.01 * tolerance);
-        std::printf("tolerance %.0e: mean residual %.1e, %.1f sweeps (60 problems of 12 contacts)\n", tolerance, mean, sweeps / 60.0);
+        std::printf("tolerance %.0e: mean residual %.1e, %.1f sweeps (60 problems of 8 contacts)\n", tolerance, mean, sweeps / 60.0);
     }
 }
 
@@ -86,28 +83,30 @@ TEST(NonlinearGaussSeidel, StartsFromTheGivenImpulses)
 {
     Random random(5);
     for (int trial = 0; trial < 20; ++trial) {
-        RandomProblem p(random, 12, 0.2);
+        RandomProblem p(random, 0, 0);
+        p.press(random, 8, 0.2);
         const int cold = tight.solve(p.problem);
         const Eigen::MatrixXd solution = p.impulses();
         p.reset(false); // free velocities, but the solution's impulses
         const int warm = tight.solve(p.problem);
+        EXPECT_GT(cold, 8);
         EXPECT_LE(warm, 3);
-        EXPECT_LE(warm, cold);
         EXPECT_LE((p.impulses() - solution).norm(), 1e-12 * solution.norm());
         const auto expected = p.velocities();
         for (size_t i = 0; i < expected[0].size(); ++i)
-            ASSERT_NEAR(p.problem.bodies[0]->velocity[i], expected[0][i], 1e-12);
+            ASSERT_NEAR(p.problem.bodies[0]->velocity[i], expected[0][i], 1e-15 * (10 + cold));
     }
 }
 
 TEST(NonlinearGaussSeidel, StopsAtTheSweepsAllowed)
 {
     Random random(6);
-    RandomProblem p(random, 12, 0.3);
-    EXPECT_EQ((NonlinearGaussSeidel { 1e-14, 3 }.solve(p.problem)), 3);
+    RandomProblem p(random, 0, 0);
+    p.press(random, 8, 0.3);
+    EXPECT_EQ((NonlinearGaussSeidel { 1e-12, 3 }.solve(p.problem)), 3);
     const auto expected = p.velocities(); // consistent all the same
     for (size_t i = 0; i < expected[0].size(); ++i)
-        EXPECT_NEAR(p.problem.bodies[0]->velocity[i], expected[0][i], 1e-12);
+        EXPECT_NEAR(p.problem.bodies[0]->velocity[i], expected[0][i], 1e-14);
 }
 
 TEST(NonlinearGaussSeidel, HasNothingToDoWithoutContacts)

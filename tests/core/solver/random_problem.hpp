@@ -9,6 +9,7 @@
 #include "support/random.hpp"
 
 #include <deque>
+#include <optional>
 #include <set>
 
 namespace softgrain::testing_support {
@@ -23,7 +24,7 @@ struct RandomProblem {
     RandomProblem(Random& random, int contacts, double friction)
     {
         for (int g = 0; g < 3; ++g) {
-            grains.push_back(make_grain(disc_mesh(g == 2 ? 556 : 276), neo_hookean(), {}, random.log_uniform(0.3e-3, 3e-3),
+            grains.push_back(make_grain(mesh(), neo_hookean(), {}, random.log_uniform(0.3e-3, 3e-3),
                                         random.log_uniform(300, 3000)));
             problem.bodies.push_back(&grains.back().surface);
         }
@@ -35,24 +36,64 @@ struct RandomProblem {
             body->velocity_before = body->velocity;
             free_velocity.push_back(body->velocity);
         }
-        for (int c = 0; c < contacts; ++c)
-            problem.contacts.push_back(contact(random, friction));
+        while (int(problem.contacts.size()) < contacts)
+            if (const auto c = contact(random, friction)) problem.contacts.push_back(*c);
     }
 
-    Contact<2> contact(Random& random, double friction)
+    RandomProblem(const RandomProblem&) = delete; // the problem points into it
+
+    /// An arc of a grain pressed on planes, in place of the contacts: neighbours feel each other well.
+    void press(Random& random, int contacts, double friction)
+    {
+        problem.contacts.clear();
+        for (int c = 0; c < contacts; ++c) {
+            Contact<2> contact {};
+            contact.body = 0;
+            contact.other = -1;
+            contact.point = c;
+            contact.normal = -grains[0].mesh->surface[c].position;
+            contact.gap_speed = random.uniform(-2, 0);
+            contact.drive.setZero();
+            contact.friction = friction;
+            contact.law = &law;
+            contact.impulse.setZero();
+            problem.contacts.push_back(contact);
+        }
+    }
+
+    /// Coarse, so that contacts feel each other.
+    static std::shared_ptr<const Discretisation<2>> mesh()
+    {
+        static const auto coarse = disc_mesh(60);
+        return coarse;
+    }
+    static const Eigen::MatrixXd& surface_delassus()
+    {
+        static const Eigen::MatrixXd W = dense_delassus(*mesh());
+        return W;
+    }
+
+    /// Nothing if its points are taken.
+    std::optional<Contact<2>> contact(Random& random, double friction)
     {
         Contact<2> c {};
         c.body = random.integer(0, 2);
         c.other = random.integer(-1, 3);
         if (c.other == c.body) c.other = -1;
-        if (c.other >= 0 && random.integer(0, 1) && c.other == 3) std::swap(c.body, c.other); // points of the rigid body too
-        c.point = unused(random, c.body, 1);
-        const double t = random.uniform(0, 1);
+        if (c.other == 3 && random.integer(0, 1)) std::swap(c.body, c.other); // points of the rigid body too
+        c.point = random.integer(0, problem.bodies[c.body]->count - 1);
         if (c.other >= 0) {
-            const int first = unused(random, c.other, 2);
+            const int first = random.integer(0, problem.bodies[c.other]->count - 2);
+            const double t = random.uniform(0, 1);
             c.vertex = { first, first + 1 };
             c.weight = { 1 - t, t };
+            if (used_.count({ c.other, first }) || used_.count({ c.other, first + 1 })) return {};
         }
+        if (used_.count({ c.body, c.point })) return {};
+        used_.insert({ c.body, c.point });
+        if (c.other >= 0)
+            for (int vertex : c.vertex)
+                used_.insert({ c.other, vertex });
         c.normal = random.unit<2>();
         c.gap_speed = random.uniform(-0.2, 0.5);
         c.drive = c.other < 0 ? random.vector<2>(0.5) : Vec<2>(0, 0);
@@ -60,22 +101,6 @@ struct RandomProblem {
         c.law = &law;
         c.impulse = Vec<2>::Zero();
         return c;
-    }
-
-    /// The first of some points in a row that no contact has yet.
-    int unused(Random& random, int body, int count)
-    {
-        for (int tries = 0; tries < 1000; ++tries) {
-            const int first = random.integer(0, problem.bodies[body]->count - count);
-            bool taken = false;
-            for (int k = first; k < first + count; ++k)
-                taken = taken || used_.count({ body, k });
-            if (taken) continue;
-            for (int k = first; k < first + count; ++k)
-                used_.insert({ body, k });
-            return first;
-        }
-        throw std::logic_error("more contacts than surface points");
     }
 
     /// Shares of the surface points of one body in the relative velocities, [contact][point].
@@ -97,7 +122,7 @@ struct RandomProblem {
     {
         Eigen::MatrixXd W = Eigen::MatrixXd::Zero(problem.contacts.size(), problem.contacts.size());
         for (int g = 0; g < 3; ++g)
-            W += grains[g].surface.mobility * shares(g) * dense_delassus(*grains[g].mesh) * shares(g).transpose();
+            W += grains[g].surface.mobility * shares(g) * surface_delassus() * shares(g).transpose();
         return W;
     }
 
@@ -128,7 +153,7 @@ struct RandomProblem {
         std::vector<std::vector<double>> all = free_velocity;
         for (int g = 0; g < 3; ++g) {
             Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> v(all[g].data(), grains[g].surface.count, 2);
-            v += grains[g].surface.mobility * dense_delassus(*grains[g].mesh) * shares(g).transpose() * impulses();
+            v += grains[g].surface.mobility * surface_delassus() * shares(g).transpose() * impulses();
         }
         return all;
     }

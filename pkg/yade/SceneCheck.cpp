@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "SceneCheck.hpp"
+
+#include "SoftIntegrator.hpp"
+#include "SoftMat.hpp"
+
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Wall.hpp>
+
+#include <core/InteractionLoop.hpp>
+
+#include <set>
+
+namespace yade {
+
+void requireSoftEngines(const Scene& scene)
+{
+    std::set<std::string> needed;
+    for (const auto& body : *scene.bodies) {
+        if (softStateOf(*body)) needed.insert({ "Ig2_SoftGrain_SoftGrain_SoftGeom", "Ip2_SoftMat_SoftMat_SoftPhys" });
+        const auto* wall = dynamic_cast<const Wall*>(body->shape.get());
+        const bool box   = dynamic_cast<const Box*>(body->shape.get()) != nullptr;
+        if (wall && wall->axis < 2) needed.insert("Ig2_Wall_SoftGrain_SoftGeom");
+        if (box) needed.insert("Ig2_Box_SoftGrain_SoftGeom");
+        if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get())) needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
+    }
+    if (needed.count("Ip2_SoftMat_SoftMat_SoftPhys") == 0) return; // no soft grains
+    needed.insert("Law2_SoftGeom_SoftPhys_ContactDynamics");
+
+    int integrators = 0, loops = 0;
+    bool inOrder = true;
+    for (const auto& engine : scene._nextEngines.empty() ? scene.engines : scene._nextEngines) {
+        if (engine->dead) continue;
+        if (dynamic_cast<const SoftIntegrator*>(engine.get())) {
+            ++integrators;
+            inOrder = loops > 0;
+        }
+        if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
+            ++loops;
+            for (const auto& functor : loop->geomDispatcher->functors)
+                needed.erase(functor->getClassName());
+            for (const auto& functor : loop->physDispatcher->functors)
+                needed.erase(functor->getClassName());
+            for (const auto& functor : loop->lawDispatcher->functors)
+                needed.erase(functor->getClassName());
+        }
+    }
+    const std::string remedy = ", or take softEngines().";
+    if (integrators == 0)
+        throw std::runtime_error("O.engines has no SoftIntegrator, or a dead one, so soft grains would not move; append SoftIntegrator()" + remedy);
+    if (integrators > 1)
+        throw std::runtime_error(
+                "O.engines has " + std::to_string(integrators) + " SoftIntegrators, so soft grains would move several times a step; keep one.");
+    if (loops == 0)
+        throw std::runtime_error("O.engines has no InteractionLoop, or a dead one, so soft grains would pass through each other; add one" + remedy);
+    if (!needed.empty())
+        throw std::runtime_error(
+                "O.engines lacks " + *needed.begin() + " in InteractionLoop, so soft grains would pass through other bodies; add it" + remedy);
+    if (!inOrder) throw std::runtime_error("SoftIntegrator stands before InteractionLoop in O.engines; put it behind, where contacts are known" + remedy);
+}
+
+} // namespace yade
