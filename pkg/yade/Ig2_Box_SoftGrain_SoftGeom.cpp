@@ -42,6 +42,13 @@ bool Ig2_Box_SoftGrain_SoftGeom::go(
         const shared_ptr<Interaction>& interaction)
 {
     if (!static_cast<const SoftState&>(state2).prepared()) return false;
+    const Vector3r axis = state1.ori * Vector3r::UnitZ();
+    if (!state1.pos.allFinite() || !state1.vel.allFinite() || !((axis - Vector3r::UnitZ()).norm() < 1e-6)) {
+        Problems::note(
+                "box #" + std::to_string(interaction->id1)
+                + ": its position and velocity have to be finite and its turn about the z axis only, for soft grains to touch it.");
+        return interaction->isReal();
+    }
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     Problems::guard([&] {

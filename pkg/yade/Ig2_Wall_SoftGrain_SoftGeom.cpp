@@ -22,6 +22,10 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(
     const auto& wall  = static_cast<const Wall&>(*shape1);
     const auto& grain = static_cast<const SoftState&>(state2).grain;
     if (wall.axis > 1) return false;
+    if (!state1.pos.allFinite() || !state1.vel.allFinite()) {
+        Problems::note("wall #" + std::to_string(interaction->id1) + ": its position or velocity is not finite; give finite numbers.");
+        return interaction->isReal();
+    }
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom     = static_cast<SoftGeom&>(*interaction->geom);
     geom.withPlane = true;

@@ -14,7 +14,7 @@ public:
             NeoHookeanMat,
             SoftMat,
             "Compressible Neo-Hookean solid (Vu et al. 2017, eq. 7): S = (λ ln J - μ) C⁻¹ + μ I, from W = μ/2 (tr C - 3) - μ ln J + λ/2 "
-            "(ln J)². Stable for μ > 0 and λ > -2/3 μ.",
+            "(ln J)². Stable for μ > 0 and λ ≥ 0.",
             ((Real, lambda_, 61e6, , "First Lamé constant λ of the undeformed grain [Pa] (with an underscore: lambda is a word of Python)."))(
                     (Real, mu, 1.26e6, , "Shear modulus μ of the undeformed grain [Pa].")),
             );

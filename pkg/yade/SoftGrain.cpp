@@ -38,6 +38,7 @@ const std::shared_ptr<const softgrain::Discretisation<2>>& SoftGrain::mesh()
         throw softgrain::UserError("SoftGrain: surfaceSpacing = " + softgrain::shown(surfaceSpacing) + " has to lie between 0.1 and 4 cell widths.");
     if (!(nodeThreshold >= 1e-4 && nodeThreshold <= 0.5))
         throw softgrain::UserError("SoftGrain: nodeThreshold = " + softgrain::shown(nodeThreshold) + " has to lie between 0.0001 and 0.5.");
+    if (!gridOffset.allFinite()) throw softgrain::UserError("SoftGrain: gridOffset has to be finite, in cell widths; 0 is usual.");
     softgrain::Resolution resolution;
     resolution.points          = points;
     resolution.surface_spacing = surfaceSpacing;
@@ -45,8 +46,8 @@ const std::shared_ptr<const softgrain::Discretisation<2>>& SoftGrain::mesh()
     resolution.offset          = { gridOffset[0], gridOffset[1], 0 };
     Key key { { double(points), surfaceSpacing, nodeThreshold, gridOffset[0], gridOffset[1] }, {} };
     if (vertices.empty()) {
-        if (!(radius > 0) || !std::isfinite(radius))
-            throw softgrain::UserError("SoftGrain: radius = " + softgrain::shown(radius) + " m has to be positive and finite.");
+        if (!(radius > 1e-12 && radius < 1e6))
+            throw softgrain::UserError("SoftGrain: radius = " + softgrain::shown(radius) + " m has to be positive, from 1e-12 to 1e6.");
         equivalentRadius_ = radius;
         mesh_             = shared(softgrain::DiscOutline(), resolution, key);
     } else {

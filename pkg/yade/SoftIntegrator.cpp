@@ -5,6 +5,8 @@
 #include "SceneCheck.hpp"
 #include "SoftTimeStepper.hpp"
 
+#include "contact/polyline.hpp"
+
 #include <chrono>
 #include <omp.h>
 
@@ -51,6 +53,7 @@ void SoftIntegrator::action()
     requireSaneAttributes();
     adopt();
     if (states_.empty()) return;
+    requireStableStep();
     try {
         advance(scene->dt);
     } catch (const softgrain::SimulationError& error) {
@@ -60,10 +63,6 @@ void SoftIntegrator::action()
 
 void SoftIntegrator::advance(double dt)
 {
-    if (!(dt <= criticalStep))
-        throw std::runtime_error(
-                "O.dt = " + softgrain::shown(dt) + " s is over the largest stable time step of the soft grains, " + softgrain::shown(criticalStep)
-                + " s; set O.dt below it, or put SoftTimeStepper() into O.engines.");
     Stopwatch watch(stageSeconds);
 
     assembly_->predict(dt, gravity.head<2>(), threads());
@@ -130,6 +129,8 @@ void SoftIntegrator::adopt()
         if (!state) continue;
         fresh_ |= !state->prepared() || scene->iter == body->iterBorn;
         state->prepare(*body);
+        if (body->clumpId >= 0)
+            throw std::runtime_error("soft grain #" + std::to_string(body->id) + ": it belongs to a clump, and clumps are rigid; release it from the clump.");
         if (!body->bound)
             throw std::runtime_error(
                     "soft grain #" + std::to_string(body->id)
@@ -147,6 +148,20 @@ void SoftIntegrator::adopt()
     evaluate();
 }
 
+/// The limit is renewed every checkInterval steps; a SoftTimeStepper may be behind it by then.
+void SoftIntegrator::requireStableStep()
+{
+    if (scene->dt <= criticalStep) return;
+    for (const auto& engine : scene->engines)
+        if (const auto* stepper = dynamic_cast<const SoftTimeStepper*>(engine.get()); stepper && stepper->active && !stepper->dead) {
+            scene->dt = stepper->safety * criticalStep;
+            return;
+        }
+    throw std::runtime_error(
+            "O.dt = " + softgrain::shown(scene->dt) + " s is over the largest stable time step of the soft grains, "
+            + softgrain::shown(criticalStep) + " s; set O.dt below it, or put SoftTimeStepper() into O.engines.");
+}
+
 /// Attributes may be changed at any time.
 void SoftIntegrator::requireSaneAttributes() const
 {
@@ -160,6 +175,16 @@ void SoftIntegrator::requireSaneAttributes() const
     demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2], "be 0 and the others finite: grains stay in the xy-plane");
 }
 
+/// A body that no functor brings into contact with soft grains.
+void SoftIntegrator::refuseStranger(const Body& grain, Body::id_t otherId) const
+{
+    const auto& other = (*scene->bodies)[otherId];
+    if (!other || !other->shape) return;
+    throw std::runtime_error(
+            "soft grain #" + std::to_string(grain.id) + " meets body #" + std::to_string(otherId) + ", a " + other->shape->getClassName()
+            + ", and no functor knows their contact; soft grains touch soft grains, walls and boxes.");
+}
+
 /// All pairs in touch, by ascending ids of their bodies: the same order for every number of threads.
 void SoftIntegrator::gatherPairs()
 {
@@ -170,13 +195,21 @@ void SoftIntegrator::gatherPairs()
     const int geomIndex = SoftGeom::getClassIndexStatic();
     for (const auto& body : bodies_)
         for (const auto& [otherId, interaction] : body->intrs) {
-            if (!interaction->isReal() || interaction->geom->getClassIndex() != geomIndex) continue;
+            if (!interaction->isReal()) {
+                if (!interaction->functorCache.geomExists) refuseStranger(*body, otherId);
+                continue;
+            }
+            if (interaction->geom->getClassIndex() != geomIndex) continue;
             auto geom = boost::static_pointer_cast<SoftGeom>(interaction->geom);
             auto phys = boost::static_pointer_cast<SoftPhys>(interaction->phys);
             if (!phys->law) continue;
             const auto& other     = (*scene->bodies)[otherId];
             SoftState* otherState = softStateOf(*other);
             if (otherState && otherId < body->id) continue;
+            if (!otherState && other->state->blockedDOFs != State::DOF_ALL)
+                throw std::runtime_error(
+                        "body #" + std::to_string(otherId) + ", a " + other->shape->getClassName() + ", is free to move and touches soft grain #"
+                        + std::to_string(body->id) + "; only fixed or driven ones can (fixed=True, or blockedDOFs='xyzXYZ').");
             auto* state           = static_cast<SoftState*>(body->state.get());
             const bool isFirst    = interaction->id1 == body->id;
             SoftState* const one  = isFirst ? state : otherState;
@@ -226,12 +259,21 @@ void SoftIntegrator::pose(double dt)
 void SoftIntegrator::refuseOverlaps() const
 {
     for (const Pair& pair : pairs_) {
-        const Real size = pair.second->grain.surface.size;
+        const auto& second = pair.second->grain.surface;
+        Real depth         = 0;
         for (const auto& point : pair.geom->points())
-            if (point.gap < -1e-3 * size)
-                throw std::runtime_error(
-                        "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by "
-                        + softgrain::shown(-point.gap) + " m at the start; move them apart or make them smaller.");
+            depth = std::max(depth, -point.gap);
+        if (pair.first) { // the smaller may be inside the larger, where its points touch nothing
+            const auto& first         = pair.first->grain.surface;
+            const auto &larger        = first.size > second.size ? first : second, &smaller = first.size > second.size ? second : first;
+            const auto middle         = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;
+            const Real inside         = -softgrain::project(larger, middle, softgrain::nearest_vertex(larger, middle)).gap;
+            if (inside > 0) depth = std::max(depth, inside + smaller.size);
+        }
+        if (depth > 1e-3 * second.size)
+            throw std::runtime_error(
+                    "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by " + softgrain::shown(depth)
+                    + " m at the start; move them apart or make them smaller.");
     }
 }
 
@@ -294,6 +336,8 @@ void SoftIntegrator::requestCollider() const
 
 void SoftIntegrator::evaluate()
 {
+    for (const auto& body : *scene->bodies)
+        if (softStateOf(*body) && !body->bound) return; // the first step has still to come
     adopt();
     if (!assembly_) return;
     assembly_->evaluate_energy(scene->dt, threads());

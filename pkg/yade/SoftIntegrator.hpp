@@ -88,6 +88,8 @@ private:
     void adopt();
     void advance(double dt);
     void requireSaneAttributes() const;
+    void requireStableStep();
+    void refuseStranger(const Body& grain, Body::id_t otherId) const;
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;

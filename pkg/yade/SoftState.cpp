@@ -59,6 +59,10 @@ void SoftState::prepare(const Body& body)
     if (nodeDisplacement.empty()) {
         if (!pos.allFinite() || !vel.allFinite() || !angVel.allFinite())
             throw softgrain::UserError(whose(body.id) + ": its position or velocity is not finite; give finite numbers.");
+        if (!(std::abs(ori.norm() - 1) < 1e-3) || !((ori * Vector3r::UnitZ() - Vector3r::UnitZ()).norm() < 1e-6))
+            throw softgrain::UserError(whose(body.id) + ": its orientation has to be a turn about the z axis (a unit quaternion); soft grains stay in the xy-plane.");
+        if (vel[2] != 0 || angVel[0] != 0 || angVel[1] != 0)
+            throw softgrain::UserError(whose(body.id) + ": its velocity has to lie in the xy-plane and its spin along z; soft grains stay in the plane.");
         origin = pos.head<2>();
         softgrain::Mat<2> spin;
         spin << 0, -angVel[2], angVel[2], 0;

@@ -50,7 +50,8 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
 
 template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
 {
-    const bool second_smaller = second.size < first.size;
+    // a rigid polygon shows its faces, however thin it is
+    const bool second_smaller = second.mobility > 0 && (first.mobility == 0 || second.size < first.size);
     const Surface<Dim>&small = second_smaller ? second : first, &large = second_smaller ? first : second;
     const double near = reach(small, large.speed, dt);
     if (first.travel + second.travel >= valid_until_) {

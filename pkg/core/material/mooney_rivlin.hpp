@@ -50,11 +50,13 @@ struct MooneyRivlin {
     static std::string complaint(const double* p)
     {
         const double mu = 2 * (p[0] + p[1]), lambda = 2 * p[2] + 4 * p[1];
-        if (!(mu > 0) || !std::isfinite(mu))
-            return "the shear modulus 2 (c1 + c2) = " + shown(mu) + " Pa has to be positive and finite";
-        if (!(3 * lambda + 2 * mu > 0) || !std::isfinite(lambda))
+        for (size_t k = 0; k < parameters.size(); ++k)
+            if (!std::isfinite(p[k])) return std::string(parameters[k]) + " = " + shown(p[k]) + " Pa has to be finite";
+        if (!(p[0] + 2 * p[1] > 0)) return "c1 + 2 c2 = " + shown(p[0] + 2 * p[1]) + " Pa has to be positive";
+        if (!(mu > 0)) return "the shear modulus 2 (c1 + c2) = " + shown(mu) + " Pa has to be positive";
+        if (!(3 * lambda + 2 * mu > 0))
             return "the bulk modulus lambda + 2/3 mu = " + shown(lambda + 2 * mu / 3)
-                + " Pa (lambda = 2 c + 4 c2) has to be positive and finite; raise c = " + shown(p[2]) + " Pa";
+                + " Pa (lambda = 2 c + 4 c2) has to be positive; raise c = " + shown(p[2]) + " Pa";
         return "";
     }
 };

@@ -154,11 +154,16 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
             grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
         }
     }
-    for (const Grain<Dim>* grain : grains_)
+    for (const Grain<Dim>* grain : grains_) {
+        if (grain->surface.speed * dt > 0.5 * grain->surface.size)
+            throw SimulationError(whose(grain->id) + ": it moves " + shown(grain->surface.speed * dt / grain->surface.size)
+                                  + " radii in one step, so that it could pass through other bodies; slow it down (speed "
+                                  + shown(grain->surface.speed) + " m/s) or take a smaller time step.");
         if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite())
             throw SimulationError(whose(grain->id) + ": its motion is no longer a finite number (kinetic energy "
                                   + shown(grain->motion.kinetic)
                                   + " J); likely causes: a time step over the stable limit or a body moved by hand.");
+    }
 }
 
 template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)
