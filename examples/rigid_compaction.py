@@ -68,7 +68,11 @@ def make_scene(options):
     for side in sides:
         side.state.isDamped = False     # else YADE counts damping of the driven wall as dissipated
     _, _, bottom, top = O.bodies.append(sides)
-    O.dt = options.dt or STEP * math.sqrt(options.density * math.pi * min(radii)**2 / options.stiffness)
+    limit = math.sqrt(options.density * math.pi * min(radii)**2 / options.stiffness)
+    O.dt = options.dt or STEP * limit
+    if O.dt > limit:
+        raise InputError(f"--dt {options.dt:g} is over the stable limit, {limit:.3g} s for --stiffness "
+                         f"{options.stiffness:g}: give less, or leave it away.")
     O.trackEnergy = True
     # a pair of two grains rubs with --friction, of a grain and a wall with --wall-friction
     angle = MatchMaker(matches=((discs, discs, math.atan(options.friction)),

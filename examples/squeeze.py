@@ -87,12 +87,15 @@ class Squeeze:
         self.run, self.walls, self.options = run, walls, run.options
         self.disc = measures.softBodies()[0]
         self.soft = measures.softIntegrator()
-        self.forces = WallForces(walls, run.interrupted)
         self.memory = run.memory
+        if not run.resumed:
+            run.first_step()
+            WallForces.require_steps(2 * self.options.radius * OUTPUT / self.options.speed, self.options.speed)
+            run.begin()
+            self.memory.update(window=0, middle=None, steps=1)
+        self.forces = WallForces(walls, run.interrupted)
         if run.resumed:
             self.forces.restore(self.memory["forces"])
-        else:
-            self.memory.update(window=0, middle=None, steps=0)
 
     def go(self):
         memory, run = self.memory, self.run

@@ -17,5 +17,19 @@ __version__ = "0.1.0"
 
 globals().update({name: getattr(yade.wrapper, name) for name in _softgrain.classes})
 
+
+def _renew_dispatchers():
+    """The engines that YADE itself puts into O.engines are older than the classes registered above, and so are the
+    tables by which they find the functor of a class: too short for a soft grain, which would end the process. Setting
+    the functors anew renews the tables."""
+    for engine in yade.wrapper.Omega().engines:
+        for name in ("boundDispatcher", "geomDispatcher", "physDispatcher", "lawDispatcher"):
+            dispatcher = getattr(engine, name, None)
+            if dispatcher is not None:
+                dispatcher.functors = dispatcher.functors
+
+
+_renew_dispatchers()
+
 __all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "measures", "softBox", "softCloud", "softDisc",
            "softEngines", "softPolygon"]

@@ -1,27 +1,30 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a soft grain holds, as numpy arrays. Each function takes a body of the running scene; arrays are copies,
-SI units, current frame unless said otherwise."""
+SI units, current frame unless said otherwise. Raise InputError for a body that is no soft grain."""
 import numpy
+import yade.wrapper as wrapper
+
+from .checks import InputError
 
 
 def points(body):
     """Current positions of the material points [m], shape (points, 2)."""
-    return _array(body.state.pointPositions(), 2)
+    return _array(_state(body).pointPositions(), 2)
 
 
 def pointVelocities(body):
     """Velocities of the material points [m/s], shape (points, 2)."""
-    return _array(body.state.pointVelocities(), 2)
+    return _array(_state(body).pointVelocities(), 2)
 
 
 def pointVolumes(body):
     """Reference areas of the material points [m²], shape (points,)."""
-    return _array(body.state.pointVolumes())
+    return _array(_state(body).pointVolumes())
 
 
 def deformationGradients(body):
     """Deformation gradients F at the material points [-], shape (points, 2, 2)."""
-    return _array(body.state.deformationGradients(), 2, 2)
+    return _array(_state(body).deformationGradients(), 2, 2)
 
 
 def volumeRatios(body):
@@ -31,7 +34,7 @@ def volumeRatios(body):
 
 def cauchyStresses(body):
     """Cauchy stresses at the material points [Pa], tension positive, shape (points, 3, 3)."""
-    return _array(body.state.cauchyStress(), 3, 3)
+    return _array(_state(body).cauchyStress(), 3, 3)
 
 
 def vonMisesStresses(body):
@@ -49,7 +52,16 @@ def pressures(body):
 
 def outline(body):
     """Current boundary, counter-clockwise [m], shape (surface points, 2)."""
-    return _array(body.state.outline(), 2)
+    return _array(_state(body).outline(), 2)
+
+
+def _state(body):
+    """The SoftState of a body, or InputError."""
+    state = getattr(body, "state", None)
+    if isinstance(state, wrapper.SoftState):
+        return state
+    what = f"body #{body.id}, a {type(body.shape).__name__}," if isinstance(body, wrapper.Body) else repr(body)
+    raise InputError(f"{what} is no soft grain: give a body that softDisc or softPolygon made.")
 
 
 def _array(content, *shape):

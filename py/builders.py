@@ -9,9 +9,11 @@ from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import cloud
-from .checks import InputError, not_negative, number, position, positive, whole
+from .checks import InputError, in_plane, not_negative, number, position, positive, whole
 
 LEAST_POINTS = 16
+MOST_DISCS = 1000000    # of a cloud
+TOUCHING = 1e-9         # distance below which a corner lies on another edge [extent of the polygon]
 VERLET = 0.05       # distance that grains may move until the collider sorts again [radius of the smallest]
 SOFT_MATERIALS = "NeoHookeanMat or a MooneyRivlinMat"
 
@@ -47,14 +49,18 @@ def softPolygon(vertices, material=-1, points=276, color=None, velocity=(0, 0, 0
     if count < 3:
         raise InputError(f"softPolygon has {count} vertices: give at least three corners.")
     corners = [position(f"softPolygon: vertex {i}", vertex) for i, vertex in enumerate(vertices)]
+    for i, corner in enumerate(corners):
+        if corner[2] != corners[0][2]:
+            raise InputError(f"softPolygon: z of vertex {i} is {corner[2]:g} m, that of vertex 0 is {corners[0][2]:g} m: "
+                             "give corners that lie in one xy-plane.")
     plane = numpy.array(corners)[:, :2]
-    crossing = _crossing_edges(plane)
-    if crossing:
-        raise InputError("softPolygon: edges {} and {} cross: give the corners in order along the boundary."
-                         .format(*crossing))
     area, centroid = _area_and_centroid(plane)
-    if abs(area) < 1e-9 * numpy.max(numpy.ptp(plane, axis=0))**2:
+    if not abs(area) > 1e-9 * numpy.max(numpy.ptp(plane, axis=0))**2:
         raise InputError(f"softPolygon with {count} vertices has no area: give corners that do not lie on a line.")
+    meeting = _meeting_edges(plane)
+    if meeting:
+        raise InputError("softPolygon: edges {} and {} (from the vertices of these numbers) cross or touch: give the "
+                         "corners in order along the boundary, each once.".format(*meeting))
     center = (centroid[0], centroid[1], corners[0][2])
     relative = [Vector3(x - centroid[0], y - centroid[1], 0) for x, y in plane]
     return _body(f"softPolygon at {_shown(center)}", center, dict(shape, vertices=relative), material, points, 0.0,
@@ -82,7 +88,7 @@ def discCloud(width, count, diameters, solidFraction, seed):
     """The geometry of softCloud, also for rigid discs: radii [m], centres [m] (count, 2), angles [rad] and the
     height of the box [m]. Raises InputError."""
     width = positive("softCloud: width", width, "m")
-    count = whole("softCloud: count", count, 1)
+    count = whole("softCloud: count", count, 1, MOST_DISCS)
     seed = whole("softCloud: seed", seed, 0)
     fraction = positive("softCloud: solidFraction", solidFraction)
     try:
@@ -114,6 +120,7 @@ def softBox(width, height, material=-1):
     from yade.utils import wall
 
     width, height = positive("softBox: width", width, "m"), positive("softBox: height", height, "m")
+    _rigid_material("softBox", material)
     return [wall(0.0, axis=0, sense=1, material=material), wall(width, axis=0, sense=-1, material=material),
             wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
 
@@ -131,7 +138,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=0.6, tolerance=1e-3, maxSweep
     wallFriction  the same between grains and other bodies
     more          engines to append (recorders, PyRunners)
     """
-    gravity = position("softEngines: gravity", gravity, "m/s²")
+    gravity = in_plane("softEngines: gravity", gravity, "m/s²")
     tolerance = positive("softEngines: tolerance", tolerance)
     safety = positive("softEngines: safety", safety)
     if safety >= 1:
@@ -145,6 +152,10 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=0.6, tolerance=1e-3, maxSweep
     if verletDist is None:
         areas = [body.shape.area() for body in O.bodies if isinstance(body.shape, wrapper.SoftGrain)]
         verletDist = VERLET * math.sqrt(min(areas, default=0.0) / math.pi)
+    else:
+        verletDist = not_negative("softEngines: verletDist", verletDist, "m")
+    if isinstance(more, wrapper.Engine) or not isinstance(more, (list, tuple)):
+        raise InputError(f"softEngines: more is a {type(more).__name__}: give a list of engines.")
     return [
         wrapper.ForceResetter(),
         wrapper.InsertionSortCollider(
@@ -173,11 +184,11 @@ def _friction(name, coefficient):
 def _body(name, center, shape, material, points, angle, color, velocity, spin):
     points = whole(f"{name}: points", points, LEAST_POINTS)
     angle, spin = number(f"{name}: angle", angle, "rad"), number(f"{name}: spin", spin, "rad/s")
-    velocity = position(f"{name}: velocity", velocity, "m/s")
+    velocity = in_plane(f"{name}: velocity", velocity, "m/s")
     body = wrapper.Body()
-    body.shape = wrapper.SoftGrain(points=points, **shape)
+    body.shape = _shape(name, dict(shape, points=points))
     if color is not None:
-        body.shape.color = Vector3(*color)
+        body.shape.color = _colour(name, color)
     body.material = _soft_material(name, material)
     state = wrapper.SoftState()
     state.pos = state.refPos = Vector3(*center)
@@ -194,24 +205,51 @@ def _set_mass(name, body):
     integrator replaces it by the exact one)."""
     try:
         area = body.shape.area()
-    except RuntimeError as error:
+    except (RuntimeError, ValueError) as error:
         raise InputError(f"{name}: {error}") from None
     body.state.mass = mass = area * body.material.density
     body.state.inertia = Vector3(1, 1, 1) * (mass * area / (2 * math.pi))
 
 
+def _shape(name, attributes):
+    try:
+        return wrapper.SoftGrain(**attributes)
+    except (AttributeError, TypeError) as error:
+        reason = str(error).splitlines()[0].rstrip(".")
+        raise InputError(f"{name}: {reason}: give attributes of SoftGrain, with values of their types.") from None
+
+
+def _colour(name, color):
+    try:
+        red, green, blue = (number(f"{name}: color", part) for part in color)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: color is {color!r}: give three numbers from 0 to 1.") from None
+    return Vector3(red, green, blue)
+
+
 def _soft_material(name, material):
-    if isinstance(material, (int, str)) and not isinstance(material, bool):
-        try:
-            found = O.materials[material]
-        except (IndexError, KeyError, RuntimeError, ValueError):
-            raise InputError(f"{name}: material {material!r} is not in O.materials: append a {SOFT_MATERIALS} "
-                             "first.") from None
-    else:
-        found = material
+    found = _material(name, material, SOFT_MATERIALS)
     if not isinstance(found, wrapper.SoftMat):
         raise InputError(f"{name}: material is a {type(found).__name__}: give a {SOFT_MATERIALS}.")
     return found
+
+
+def _rigid_material(name, material):
+    if material == -1 and not len(O.materials):
+        return      # YADE's default material
+    found = _material(name, material, "FrictMat")
+    if isinstance(found, wrapper.SoftMat) or not isinstance(found, wrapper.FrictMat):
+        raise InputError(f"{name}: material is a {type(found).__name__}: give walls a FrictMat of their own.")
+
+
+def _material(name, material, wanted):
+    """The material itself for a number or label in O.materials."""
+    if not isinstance(material, (int, str)) or isinstance(material, bool):
+        return material
+    try:
+        return O.materials[material]
+    except (IndexError, KeyError, RuntimeError, ValueError):
+        raise InputError(f"{name}: material {material!r} is not in O.materials: append a {wanted} first.") from None
 
 
 def _area_and_centroid(plane):
@@ -226,21 +264,40 @@ def _area_and_centroid(plane):
     return area, origin + ((here + ahead) * cross[:, None]).sum(axis=0) / (6 * area)
 
 
-def _crossing_edges(plane):
-    """The numbers of the first two edges that cross each other, or None."""
-    count = len(plane)
-
-    def side(a, b, c):
-        return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
+def _meeting_edges(plane):
+    """The numbers of two edges that cross or touch each other elsewhere than in the corner that neighbours share, or
+    None. Edge i goes from corner i to the next one."""
+    count, near = len(plane), TOUCHING * numpy.max(numpy.ptp(plane, axis=0))
+    ends = numpy.roll(plane, -1, axis=0)
     for i in range(count):
-        for j in range(i + 2, count):
-            if i == 0 and j == count - 1:
-                continue
-            a, b, c, d = plane[i], plane[i + 1], plane[j], plane[(j + 1) % count]
-            if side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0:
-                return i, j
+        a, b = plane[i], ends[i]
+        after, before = (i + 1) % count, (i - 1) % count
+        # a corner given twice, or a boundary that turns back on itself
+        if _distances(a, b, plane[before]) <= near:
+            return before, i
+        if _distances(a, b, ends[after]) <= near:
+            return i, after
+        others = numpy.arange(i + 2, count if i > 0 else count - 1)
+        c, d = plane[others], ends[others]
+        crossing = (_side(a, b, c) * _side(a, b, d) < 0) & (_side(c, d, a) * _side(c, d, b) < 0)
+        gaps = numpy.minimum.reduce([_distances(a, b, c), _distances(a, b, d), _distances(c, d, a), _distances(c, d, b)])
+        meeting = others[crossing | (gaps <= near)]
+        if len(meeting):
+            return i, int(meeting[0])
     return None
+
+
+def _side(a, b, c):
+    """Twice the area of the triangles a b c, shape (..., 2) each; its sign says on which side of a b point c lies."""
+    return (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
+
+
+def _distances(a, b, c):
+    """Distances of the points c from the edges a b, shape (..., 2) each."""
+    along = b - a
+    length2 = numpy.sum(along**2, axis=-1)
+    share = numpy.clip(numpy.sum(along * (c - a), axis=-1) / numpy.where(length2 > 0, length2, 1), 0, 1)
+    return numpy.hypot(*numpy.moveaxis(a + share[..., None] * along - c, -1, 0))
 
 
 def _shown(center):

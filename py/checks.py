@@ -34,11 +34,12 @@ def not_negative(what, value, unit=""):
     return result
 
 
-def whole(what, value, least):
-    """The value as an int of at least `least`, or InputError."""
+def whole(what, value, least, most=None):
+    """The value as an int of at least `least` and at most `most`, or InputError."""
     result = number(what, value)
-    if result != int(result) or result < least:
-        raise InputError(f"{what} is {value!r}: give a whole number of at least {least}.")
+    if result != int(result) or result < least or (most is not None and result > most):
+        raise InputError(f"{what} is {value!r}: give a whole number of at least {least}"
+                         f"{'' if most is None else f' and at most {most}'}.")
     return int(result)
 
 
@@ -52,6 +53,14 @@ def position(what, value, unit="m"):
         raise InputError(f"{what} has {len(parts)} coordinates: give two or three{_in(unit)}.")
     x, y = (number(f"{what} ({axis})", part, unit) for axis, part in zip("xy", parts))
     z = number(f"{what} (z)", parts[2], unit) if len(parts) == 3 else 0.0
+    return x, y, z
+
+
+def in_plane(what, value, unit=""):
+    """A vector (x, y) or (x, y, 0) as a tuple of three floats, or InputError."""
+    x, y, z = position(what, value, unit)
+    if z != 0:
+        raise InputError(f"{what} has the z component {z:g}: give zero, soft grains move in the xy-plane.")
     return x, y, z
 
 

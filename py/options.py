@@ -13,6 +13,8 @@ from .checks import InputError
 # Options that say how a run is managed, not what is computed: they may differ when a run is resumed.
 MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds"}
 
+MOST_THREADS = 16    # a core
+
 # What argparse takes for a value and not for an option; its own pattern leaves out -1e6.
 NEGATIVE_NUMBER = re.compile(r"^-((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf)$")
 
@@ -34,7 +36,7 @@ class Parser(argparse.ArgumentParser):
         group.add_argument("--out", default=self.name, metavar="DIR", help="folder for what is computed")
         group.add_argument("--force", action="store_true", help="overwrite a run in that folder")
         group.add_argument("--resume", action="store_true", help="continue the run in that folder from its checkpoint")
-        group.add_argument("--threads", type=count, default=O.numThreads, metavar="N", help="OpenMP threads")
+        group.add_argument("--threads", type=threads, default=O.numThreads, metavar="N", help="OpenMP threads")
         group.add_argument("--checkpoint-seconds", type=positive, default=20.0, metavar="S",
                            help="wall time between checkpoints [s]")
 
@@ -95,8 +97,15 @@ def seed(text):
     return value
 
 
+def threads(text):
+    value, most = count(text), MOST_THREADS * os.cpu_count()
+    if value > most:
+        raise argparse.ArgumentTypeError(f"{text} has to be {most} or less on this machine of {os.cpu_count()} cores")
+    return value
+
+
 for _type, _word in ((positive, "number above zero"), (not_negative, "number"), (finite, "number"),
-                     (count, "whole number"), (seed, "whole number")):
+                     (count, "whole number"), (threads, "whole number"), (seed, "whole number")):
     _type.__name__ = _word       # argparse says: invalid <name> value
 
 

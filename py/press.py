@@ -66,7 +66,9 @@ class Press:
         O.bodies[self.box["top"]].state.vel = (0, -self.speed, 0)
         self.memory = self.run.memory
         self.memory.update(window=0, middle=None, fraction=0.0, stress=0.0, steps=0, jammed=False, work=0.0)
-        O.step()
+        self.run.first_step()
+        self.forces.require_steps(self._time_of(1), self.speed)
+        self.run.begin()
         area = self.packing.area()
         self.memory.update(steps=1, area0=area, area=area, h=self.height(),
                            sweeps=self.packing.total_sweeps(), energy0=self._stored_energy())

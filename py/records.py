@@ -4,6 +4,8 @@ import json
 import math
 import os
 
+from .checks import InputError
+
 
 class Table:
     """A csv file with fixed columns. Every row is on disk when `append` returns."""
@@ -14,8 +16,7 @@ class Table:
         self.rows = rows
         kept = [",".join(columns)]
         if rows:
-            with open(path, encoding="ascii") as old:
-                kept = old.read().splitlines()[:rows + 1]
+            kept = self._begin_of(path, rows + 1)
         replace_text(path, "\n".join(kept) + "\n")
         self._file = open(path, "a", encoding="ascii")
 
@@ -30,6 +31,19 @@ class Table:
 
     def close(self):
         self._file.close()
+
+    @staticmethod
+    def _begin_of(path, count):
+        """The first lines of an older csv file, or InputError."""
+        try:
+            with open(path, encoding="ascii") as old:
+                lines = old.read().splitlines()[:count]
+        except (OSError, UnicodeDecodeError):
+            lines = []
+        if len(lines) < count:
+            raise InputError(f"{path} holds {max(len(lines) - 1, 0)} rows, its checkpoint counts {count - 1}: start "
+                             "anew with --force.")
+        return lines
 
 
 def read_table(path):

@@ -12,12 +12,15 @@ import time
 
 from yade import O
 
+from . import summary as summaries
 from .checks import InputError
 from .options import MANAGEMENT
 from .progress import Progress
 from .records import Table, read_json, write_json
 
 MOST_CHECKPOINT_SHARE = 0.02    # of the wall time may go into checkpoints
+SAVED_BY = ("softgrain", "yade")    # versions that a checkpoint depends on
+CHECKPOINT = {"run", "scene", "rows", "versions", "parameters", "until", "memory", "cpu_s", "wall_s"}
 OWN_FILES = ("*.csv", "checkpoint*", "summary.json", "figure?.png", "snapshot_*.npz", "*.part")
 
 
@@ -31,7 +34,7 @@ class Run:
     options     of the command line; when resumed, the stored ones replace them
     memory      what the example wants to find again after --resume: a dict that json can hold
     resumed     whether the scene was loaded from a checkpoint
-    table       the csv file
+    table       the csv file; of a new run after begin()
     """
 
     def __init__(self, name, options, columns):
@@ -39,6 +42,7 @@ class Run:
         self.folder = os.path.abspath(options.out)
         self.memory, self.resumed, self.progress = {}, False, Progress()
         self._signal, self._cpu_before, self._wall_before, stored = None, 0.0, 0.0, None
+        self.table, self._columns = None, columns
         self._make_folder()
         if options.resume:
             stored = self._stored()
@@ -46,13 +50,25 @@ class Run:
             self._refuse_to_overwrite()
         if stored:
             self._adopt(stored)
-        else:
-            self._clear()
         self._cpu_begin, self._wall_begin = time.process_time(), time.monotonic()
         self._checkpoint_at, self._checkpoint_cost = self._wall_begin, 0.0
-        self.table = Table(self.path(f"{name}.csv"), columns, stored["rows"] if stored else 0)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self._on_signal)
+
+    def first_step(self):
+        """The first step of a new run: what the engines then find wrong with the scene is bad input."""
+        try:
+            O.step()
+        except RuntimeError as error:
+            raise InputError(str(error)) from None
+
+    def begin(self):
+        """Takes the folder for a new run whose input has proved sound: removes what an earlier run left (its own kinds
+        of file only) and opens the csv."""
+        for pattern in OWN_FILES:
+            for file in glob.glob(self.path(pattern)):
+                os.remove(file)
+        self.table = Table(self.path(f"{self.name}.csv"), self._columns)
 
     def path(self, file):
         return os.path.join(self.folder, file)
@@ -79,7 +95,8 @@ class Run:
         scene = f"checkpoint-{O.iter:09d}.yade"
         O.save(self.path(scene), quiet=True)
         write_json(self.path("checkpoint.json"), {
-            "run": self.name, "scene": scene, "rows": self.table.rows, "parameters": self.parameters(),
+            "run": self.name, "scene": scene, "rows": self.table.rows, "versions": _versions(),
+            "parameters": self.parameters(),
             "until": getattr(self.options, "until", None), "memory": self.memory, "cpu_s": self.cpu_seconds(),
             "wall_s": self.wall_seconds()}, nan=True)
         for old in glob.glob(self.path("checkpoint-*.yade")):
@@ -114,6 +131,8 @@ class Run:
         self.table.close()
 
     def _make_folder(self):
+        if not self.options.out.strip():
+            raise InputError("--out is empty: name a folder.")
         try:
             os.makedirs(self.folder, exist_ok=True)
             probe = self.path(f".writable-{os.getpid()}")
@@ -142,10 +161,17 @@ class Run:
                                  "another one with --out, or overwrite it with --force.") from None
             return None
         except ValueError:
-            raise InputError(f"{self.path('checkpoint.json')} cannot be read: start anew with --force.") from None
-        if stored.get("run") != self.name:
-            raise InputError(f"the folder {self.options.out} holds a run of {stored.get('run')}.py, not of "
+            stored = None
+        if not isinstance(stored, dict) or not CHECKPOINT <= set(stored):
+            raise InputError(f"{self.path('checkpoint.json')} cannot be read, or another version of softgrain wrote it: "
+                             "resume with that version, or start anew with --force.")
+        if stored["run"] != self.name:
+            raise InputError(f"the folder {self.options.out} holds a run of {stored['run']}.py, not of "
                              f"{self.name}.py: give another one with --out.")
+        if stored["versions"] != _versions():
+            raise InputError(f"the run in {self.options.out} was saved by {_named(stored['versions'])}, but this is "
+                             f"{_named(_versions())}: resume with the versions that saved it, or start anew with "
+                             "--force.")
         return stored
 
     def _adopt(self, stored):
@@ -162,22 +188,26 @@ class Run:
             self.options.until = stored["until"]
         try:
             O.load(self.path(stored["scene"]), quiet=True)
-        except RuntimeError as error:
-            raise InputError(f"the checkpoint {self.path(stored['scene'])} cannot be loaded ({error}): start anew "
-                             "with --force.") from None
+            self.table = Table(self.path(f"{self.name}.csv"), self._columns, stored["rows"])
+        except (RuntimeError, MemoryError) as error:    # MemoryError: boost takes what it reads for a size
+            raise InputError(f"the checkpoint {self.path(stored['scene'])} cannot be loaded "
+                             f"({str(error) or 'no saved scene'}): start anew with --force.") from None
         self.memory, self.resumed = stored["memory"], True
         self._cpu_before, self._wall_before = stored["cpu_s"], stored["wall_s"]
         if os.path.exists(self.path("summary.json")):
             os.remove(self.path("summary.json"))
 
-    def _clear(self):
-        """Removes what an earlier run of the same folder left: its own kinds of file only."""
-        for pattern in OWN_FILES:
-            for file in glob.glob(self.path(pattern)):
-                os.remove(file)
-
     def _on_signal(self, number, _frame):
         self._signal = number
+
+
+def _versions():
+    """Versions on which a saved scene depends."""
+    return {name: version for name, version in summaries.versions().items() if name in SAVED_BY}
+
+
+def _named(versions):
+    return " under ".join(f"{name} {versions.get(name, '?')}" for name in SAVED_BY)
 
 
 def main(body):

@@ -2,6 +2,10 @@
 """Runs steps and averages the forces on walls over them. About two microseconds of Python a step."""
 from yade import O
 
+from .checks import InputError
+
+LEAST_STEPS = 10    # in the time between two outputs
+
 
 class WallForces:
     """Time means of wall forces between two outputs.
@@ -19,6 +23,14 @@ class WallForces:
         """Begins a new average at the current time."""
         self.begin, self.steps = O.time, 0
         self.impulses = [0.0] * len(self.walls)
+
+    @staticmethod
+    def require_steps(window, speed):
+        """InputError when the time between two outputs [s] is so short that few steps fall into it, which happens to
+        walls of an absurd speed [m/s]."""
+        if window < LEAST_STEPS * O.dt:
+            raise InputError(f"--speed {speed:g} m/s leaves {window / O.dt:.2g} time steps of {O.dt:.3g} s between two "
+                             f"rows of the csv: give less than {speed * window / (LEAST_STEPS * O.dt):.2g}.")
 
     def advance(self, end):
         """Steps until the time [s] is reached; false when stopped before."""

@@ -6,7 +6,7 @@
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/build.sh"
 
 install_missing "${needed[@]}" libgtest-dev
-if [ "${CI:-}" = true ]; then export SOFTGRAIN_CMAKE_OPTIONS="-DSOFTGRAIN_WERROR=ON"; fi
+export SOFTGRAIN_CMAKE_OPTIONS="-DSOFTGRAIN_TESTS=ON -DSOFTGRAIN_WERROR=$([ "${CI:-}" = true ] && echo ON || echo OFF)"
 build_plugin
 
 log=$build/tests.log

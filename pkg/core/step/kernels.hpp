@@ -31,23 +31,24 @@ template <class T, int L> SOFTGRAIN_INLINE const T& item(const double* array, lo
 template <int Dim, int Points, class T, class U, class Nodes>
 SOFTGRAIN_INLINE void add_gradients(const Nodes& node, const double* gradient, int count, const U& u, Tensor<Dim, T>* F)
 {
-#pragma GCC unroll 1
-    for (int k = 0; k < power(3, Dim); ++k, gradient += Dim * count)
+    for (int k = 0; k < power(3, Dim); ++k) {
+        const double* slope = gradient + k * Dim * count;
 #pragma GCC unroll 8
         for (int p = 0; p < Points; ++p)
 #pragma GCC unroll 3
             for (int i = 0; i < Dim; ++i)
 #pragma GCC unroll 3
                 for (int j = 0; j < Dim; ++j)
-                    F[p].at[i][j] += gradient[p * Dim + j] * u[Dim * node[k] + i];
+                    F[p].at[i][j] += slope[p * Dim + j] * u[Dim * node[k] + i];
+    }
 }
 
 /// f += sum over the points of Q grad N, the transpose of add_gradients.
 template <int Dim, int Points, class T, class U, class Nodes>
 SOFTGRAIN_INLINE void add_forces(const Nodes& node, const double* gradient, int count, const Tensor<Dim, T>* Q, const U& f)
 {
-#pragma GCC unroll 1
-    for (int k = 0; k < power(3, Dim); ++k, gradient += Dim * count)
+    for (int k = 0; k < power(3, Dim); ++k) {
+        const double* slope = gradient + k * Dim * count;
 #pragma GCC unroll 3
         for (int i = 0; i < Dim; ++i) {
             T sum = f[Dim * node[k] + i];
@@ -55,9 +56,10 @@ SOFTGRAIN_INLINE void add_forces(const Nodes& node, const double* gradient, int 
             for (int p = 0; p < Points; ++p)
 #pragma GCC unroll 3
                 for (int j = 0; j < Dim; ++j)
-                    sum += gradient[p * Dim + j] * Q[p].at[i][j];
+                    sum += slope[p * Dim + j] * Q[p].at[i][j];
             f[Dim * node[k] + i] = sum;
         }
+    }
 }
 
 /// The same two in a full cell of the plane by sum factorisation (Orszag 1980): one axis after the other, and on

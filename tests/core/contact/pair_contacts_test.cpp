@@ -240,8 +240,28 @@ TEST(PairContacts, FindTheCornerOfALargerBodyBetweenTheSmallerOnesPoints)
     const auto& contact = pair.points[0];
     EXPECT_TRUE(contact.on_second);
     EXPECT_LE((large.x(contact.point) - tip).norm(), 1e-12);
-    EXPECT_NEAR(contact.gap, -1e-3, 0.6 * std::pow(2 * M_PI / count, 4) / 128 * 1.05); // see GapOfASampledCircle
+    EXPECT_NEAR(contact.gap, -1e-3, 0.6 * std::pow(2 * M_PI / count, 4) * 9 / 384 * 1.05); // see GapOfASampledCircle
     EXPECT_LE((contact.normal + Vec<2>(1, 1).normalized()).norm(), 1e-9);
+}
+
+// Points of a soft grain meet the faces of a rigid body, whichever is larger.
+TEST(PairContacts, ShowTheFacesOfRigidBodies)
+{
+    for (double size : { 0.3, 3.0 }) {
+        Surface<2> plate = surface_of(PolygonOutline(rectangle_vertices(4, 1)), 10, size), ball = surface_of(disc, 2 * M_PI / 64);
+        plate.mobility = 0;
+        move(ball, Vec<2>(0, plate.max.y() + 0.999), 0, 1);
+        ball.speed = ball.travel = 0;
+        PairContacts<2> one, two;
+        one.update(ball, plate, 1e-3);
+        two.update(plate, ball, 1e-3);
+        ASSERT_EQ(one.points.size(), 1u) << size;
+        ASSERT_EQ(two.points.size(), 1u) << size;
+        EXPECT_FALSE(one.points[0].on_second);
+        EXPECT_TRUE(two.points[0].on_second);
+        EXPECT_NEAR(one.points[0].gap, -1e-3, 1e-13);
+        EXPECT_LE((one.points[0].normal - Vec<2>(0, 1)).norm(), 1e-13);
+    }
 }
 
 // A disc that comes near a face of a wedge, next to its sharp tip, is not inside of the wedge.

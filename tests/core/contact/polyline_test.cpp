@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/support.hpp"
+#include "support/finite_difference.hpp"
 #include "support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -34,30 +35,39 @@ double circle_error(int count, double lo, double hi, Random& random)
     return worst;
 }
 
-// Over a chord c of a curve the cubic with the curve's own end values and tangents strays from it by |y''''| c^4 / 384
-// (Hermite). For the circle y'''' = 3 / R^3 and c = R theta: R theta^4 / 128, order 4. (The chord alone: R theta^2 / 8.)
+// Over a chord of a circle, angle theta, the arc rises by R (1 - cos(theta/2)); the parabola with rise sin(theta)/2, half
+// the turn at a vertex, by R sin(theta) sin(theta/2) / 4. They differ by (9/384) R theta^4: order 4. (The chord alone is
+// off by R theta^2 / 8.)
 TEST(Projection, GapOfASampledCircleIsOfOrder4)
 {
     Random random(1);
     std::vector<double> error;
     for (int count : { 16, 32, 64, 128 }) {
         error.push_back(circle_error(count, -1e-3, 1e-3, random));
-        EXPECT_LE(error.back(), std::pow(2 * M_PI / count, 4) / 128 * 1.05) << count << " points";
+        EXPECT_LE(error.back(), 9.0 / 384 * std::pow(2 * M_PI / count, 4) * 1.05) << count << " points";
     }
     for (size_t k = 1; k < error.size(); ++k)
         EXPECT_NEAR(std::log2(error[k - 1] / error[k]), 4, 0.1);
     std::printf("gap error of a circle of 16, 32, 64, 128 points: %.2e %.2e %.2e %.2e R\n", error[0], error[1], error[2], error[3]);
 }
 
-// End normals of equal length along the radii: interpolated along the chord they stay along the foot's radius.
-TEST(Projection, NormalOfASampledCircleIsRadial)
+// The normal turns from -atan(rise) to atan(rise) over a segment, by theta - O(theta^3) of the arc's theta.
+TEST(Projection, NormalOfASampledCircleIsRadialToOrder3)
 {
     Random random(2);
-    const Surface<2> surface = circle(24);
-    for (int trial = 0; trial < 2000; ++trial) {
-        const Vec<2> x = (1 + random.uniform(-1e-2, 1e-2)) * random.unit<2>();
-        ASSERT_LE((project_from_nearest(surface, x).normal - x.normalized()).norm(), 1e-14);
+    std::vector<double> error;
+    for (int count : { 16, 32, 64 }) {
+        const Surface<2> surface = circle(count);
+        error.push_back(0);
+        for (int trial = 0; trial < 4000; ++trial) {
+            const Vec<2> x = (1 + random.uniform(-1e-3, 1e-3)) * random.unit<2>();
+            error.back() = std::max(error.back(), (project_from_nearest(surface, x).normal - x.normalized()).norm());
+        }
+        // at the ends: theta/2 - atan(sin(theta)/2) = theta^3 / 8
+        EXPECT_LE(error.back(), std::pow(2 * M_PI / count, 3) / 8 * 1.05);
     }
+    for (size_t k = 1; k < error.size(); ++k)
+        EXPECT_NEAR(std::log2(error[k - 1] / error[k]), 3, 0.15);
 }
 
 /// Smooth shapes, sampled; the largest turn of the boundary at a vertex [rad].
@@ -82,9 +92,8 @@ std::vector<Smooth> smooth_shapes()
     return all;
 }
 
-// Distance to the smoothed boundary, found by brute force on a fine sampling of it. The gap is measured along the
-// interpolated normal, which is off the shortest line by O(turn^3) at most where normal and cubic differ, and to the
-// cubic's height at the foot instead of its nearest point: O(turn^4) of the length in all.
+// Distance to the parabolas, found by brute force on a fine sampling of them. The gap takes the parabola's height at the
+// foot instead of at its nearest point, along a normal off the chord's by half the turn: O(turn^4) of a length.
 TEST(Projection, GapIsTheDistanceToTheSmoothedBoundary)
 {
     Random random(3);
@@ -100,6 +109,28 @@ TEST(Projection, GapIsTheDistanceToTheSmoothedBoundary)
         }
         // the fine polyline itself strays by (turn / 60)^2 / 8 of a radius of curvature
         EXPECT_LE(worst, 0.05 * std::pow(shape.turn, 4) + std::pow(shape.turn / 60, 2)) << shape.name << " " << shape.turn;
+    }
+}
+
+// What the contact law acts on: as the point moves by dx, the gap changes by n . dx. Along the foot's path the parabola's
+// slope is that of the normal but for the cube of the rise.
+TEST(Projection, GapChangesAsThePointMovesAlongTheNormal)
+{
+    Random random(8);
+    for (const auto& shape : smooth_shapes()) {
+        const double rise = *std::max_element(shape.surface.rise.begin(), shape.surface.rise.end());
+        int checked = 0;
+        for (int trial = 0; trial < 500; ++trial) {
+            const Vec<2> x = Vec<2>(shape.surface.x(random.integer(0, shape.surface.count - 1))) + random.vector<2>(0.05);
+            const Projection at = project_from_nearest(shape.surface, x);
+            if (at.t < 0.05 || at.t > 0.95) continue; // no kink within the differences
+            ++checked;
+            const auto slope = central_gradient(
+                [&](const std::vector<double>& point) { return project(shape.surface, Vec<2>(point[0], point[1]), at.segment).gap; },
+                { x.x(), x.y() }, 1e-4);
+            ASSERT_LE((Vec<2>(slope[0], slope[1]) - at.normal).norm(), 2 * std::pow(rise, 3) + 1e-9) << shape.name;
+        }
+        EXPECT_GT(checked, 200);
     }
 }
 
@@ -123,9 +154,15 @@ TEST(Projection, FootPointAndNormalAreInLine)
             }
 }
 
-TEST(Projection, NormalAndGapAreContinuousAlongTheBoundary)
+// From segment to segment the normal jumps by the difference of the rises and by turn^3, the gap by that times the distance
+// squared and by turn^4: small against what a segment does (turn, turn^2).
+TEST(Projection, NormalAndGapAreNearlyContinuousAlongTheBoundary)
 {
     for (const auto& shape : smooth_shapes()) {
+        const auto& rise = shape.surface.rise;
+        double uneven = 0;
+        for (size_t i = 0; i < rise.size(); ++i)
+            uneven = std::max(uneven, std::abs(rise[i] - rise[(i + 1) % rise.size()]));
         // along a curve at a small distance, in steps of 1/200 of a segment
         const auto curve = smoothed(shape.surface, 200);
         Projection before {};
@@ -134,15 +171,18 @@ TEST(Projection, NormalAndGapAreContinuousAlongTheBoundary)
             const Vec<2> x = curve[i] + 0.003 * Vec<2>(along.y(), -along.x());
             const Projection at = project_from_nearest(shape.surface, x);
             if (i > 0) {
-                // the normal turns by one `turn` a segment, here by 1/200 of it, twice that where curvature varies
-                ASSERT_LE((at.normal - before.normal).norm(), 2 * shape.turn / 200) << shape.name << " " << i;
-                ASSERT_LE(std::abs(at.gap - before.gap), 0.05 * std::pow(shape.turn, 4)) << shape.name << " " << i;
+                // 2 turn / 200: the way of the normal in a step, up to twice the mean one
+                ASSERT_LE((at.normal - before.normal).norm(), 2 * shape.turn / 200 + uneven + std::pow(shape.turn, 3))
+                    << shape.name << " " << i;
+                ASSERT_LE(std::abs(at.gap - before.gap), 0.05 * std::pow(shape.turn, 4) + 1e-3 * uneven) << shape.name << " " << i;
             }
             before = at;
         }
     }
 }
 
+// Between two parabolas that do not quite meet in slope a point may have two feet, by a turn^3 apart: gaps and normals differ
+// by no more than across the joint.
 TEST(Projection, ComesOutTheSameFromEveryNearStart)
 {
     Random random(5);
@@ -151,10 +191,11 @@ TEST(Projection, ComesOutTheSameFromEveryNearStart)
             const Vec<2> x = Vec<2>(shape.surface.x(random.integer(0, shape.surface.count - 1))) + random.vector<2>(0.02);
             const int nearest = nearest_vertex(shape.surface, x), n = shape.surface.count;
             const Projection at = project(shape.surface, x, nearest);
+            const bool clear = at.t > 0.05 && at.t < 0.95;
             for (int off = -4; off <= 4; ++off) {
                 const Projection again = project(shape.surface, x, (nearest + off + n) % n);
-                ASSERT_NEAR(again.gap, at.gap, 1e-14) << shape.name << " from " << off;
-                ASSERT_LE((again.normal - at.normal).norm(), 1e-13) << shape.name << " from " << off;
+                ASSERT_NEAR(again.gap, at.gap, clear ? 1e-14 : 0.05 * std::pow(shape.turn, 4)) << shape.name << " from " << off;
+                ASSERT_LE((again.normal - at.normal).norm(), clear ? 1e-13 : shape.turn) << shape.name << " from " << off;
             }
         }
 }
@@ -209,6 +250,29 @@ TEST(Projection, PolygonWithAcuteCornersHasStraightFacesToo)
 {
     for (double spacing : { 0.2, 10.0 })
         expect_distances("triangle", { { 0, 0 }, { 2, 0.1 }, { 0.6, 1.5 } }, spacing);
+}
+
+// The rise of a segment is the mean of half the turns at its ends; it follows the shape as 1 - (1 - share)^n.
+TEST(FollowShape, TakesHalfTheTurnAndGoesThereByShares)
+{
+    Surface<2> surface = circle(40);
+    const double theta = 2 * M_PI / 40;
+    for (double rise : surface.rise)
+        EXPECT_NEAR(rise, std::sin(theta) / 2, 1e-14);
+    surface.rise.assign(40, 0);
+    for (int n = 1; n <= 100; ++n) {
+        follow_shape(surface, 0.02);
+        for (double rise : surface.rise)
+            ASSERT_NEAR(rise, std::sin(theta) / 2 * (1 - std::pow(0.98, n)), 1e-14);
+    }
+}
+
+TEST(FollowShape, LeavesStraightFacesAndCornersStraight)
+{
+    for (double rise : surface_of(PolygonOutline(rectangle_vertices(2, 1)), 0.2).rise)
+        EXPECT_NEAR(rise, 0, 1e-14);
+    for (double rise : surface_of(PolygonOutline(polar(6, [](double) { return 1.0; })), 10).rise)
+        EXPECT_NEAR(rise, 0, 1e-14);
 }
 
 TEST(NearestVertex, IsTheNearest)

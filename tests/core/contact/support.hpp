@@ -8,18 +8,19 @@
 
 namespace softgrain::testing_support {
 
-/// A closed polyline, counter-clockwise; sharp: every vertex is a corner.
-inline Surface<2> surface_of(const std::vector<Vec<2>>& vertices, bool sharp = false)
+/// The boundary of a soft grain: a closed polyline, counter-clockwise, without corners.
+inline Surface<2> surface_of(const std::vector<Vec<2>>& vertices)
 {
     Surface<2> surface;
     surface.resize(int(vertices.size()));
     for (int i = 0; i < surface.count; ++i) {
         surface.position[2 * i] = vertices[i].x();
         surface.position[2 * i + 1] = vertices[i].y();
-        surface.corner[i] = sharp;
     }
     surface.bound();
     surface.size = 0.5 * (surface.max - surface.min).minCoeff();
+    surface.mobility = 1;
+    follow_shape(surface, 1);
     return surface;
 }
 
@@ -34,6 +35,7 @@ inline Surface<2> surface_of(const Outline<2>& outline, double spacing, double r
     for (int i = 0; i < surface.count; ++i)
         surface.corner[i] = points[i].corner;
     surface.size = radius;
+    follow_shape(surface, 1);
     return surface;
 }
 
@@ -56,23 +58,15 @@ inline void move(Surface<2>& surface, const Vec<2>& shift, double angle, double 
 
 inline double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The smoothed boundary, finely: on each segment the cubic through its ends with the slopes of the tangents there,
-/// at a smooth vertex the chord of its neighbours, at a corner the segment itself.
+/// The smoothed boundary, finely: over each segment the parabola that leaves its ends with the slopes -+rise.
 inline std::vector<Vec<2>> smoothed(const Surface<2>& surface, int pieces)
 {
-    const int n = surface.count;
     std::vector<Vec<2>> curve;
-    for (int i = 0; i < n; ++i) {
-        const int before = (i + n - 1) % n, end = (i + 1) % n, after = (i + 2) % n;
-        const Vec<2> chord = surface.x(end) - surface.x(i), along = chord.normalized(), out(along.y(), -along.x());
-        const auto slope = [&](const Vec<2>& tangent) { return tangent.dot(out) / tangent.dot(along); };
-        const double start_slope = surface.corner[i] ? 0 : slope(surface.x(end) - surface.x(before));
-        const double end_slope = surface.corner[end] ? 0 : slope(surface.x(after) - surface.x(i));
+    for (int i = 0; i < surface.count; ++i) {
+        const Vec<2> chord = surface.x((i + 1) % surface.count) - surface.x(i);
         for (int k = 0; k < pieces; ++k) {
-            // Hermite's cubic with end values 0
-            const double t = double(k) / pieces, s = 1 - t;
-            const double height = chord.norm() * (start_slope * t * s * s - end_slope * s * t * t);
-            curve.push_back(surface.x(i) + t * chord + height * out);
+            const double t = double(k) / pieces;
+            curve.push_back(surface.x(i) + t * chord + surface.rise[i] * t * (1 - t) * Vec<2>(chord.y(), -chord.x()));
         }
     }
     return curve;

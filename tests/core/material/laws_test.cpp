@@ -202,12 +202,11 @@ TEST(NeoHookeanComplaint, NamesTheConstantAndItsValue)
 {
     expect_complaint<NeoHookean>({ 61e6, 1.26e6 }, {});
     expect_complaint<NeoHookean>({ 0, 1 }, {});
-    expect_complaint<NeoHookean>({ -0.6, 1 }, {}); // bulk modulus 0.067
     expect_complaint<NeoHookean>({ 1, 0 }, { "mu = 0", "positive" });
     expect_complaint<NeoHookean>({ 1, -2.5 }, { "mu = -2.5" });
     expect_complaint<NeoHookean>({ 1, nan }, { "mu" });
     expect_complaint<NeoHookean>({ 1, inf }, { "mu" });
-    expect_complaint<NeoHookean>({ -0.7, 1 }, { "lambda = -0.7", "-0.666667" });
+    expect_complaint<NeoHookean>({ -0.7, 1 }, { "lambda = -0.7" });
     expect_complaint<NeoHookean>({ nan, 1 }, { "lambda" });
     expect_complaint<NeoHookean>({ inf, 1 }, { "lambda" });
 }
@@ -215,12 +214,12 @@ TEST(NeoHookeanComplaint, NamesTheConstantAndItsValue)
 TEST(MooneyRivlinComplaint, NamesTheModulusAndItsValue)
 {
     expect_complaint<MooneyRivlin>({ 0.63e6, -0.0012e6, 6e6 }, {});
-    expect_complaint<MooneyRivlin>({ 1, -1, 5 }, { "shear modulus", "= 0 Pa" });
-    expect_complaint<MooneyRivlin>({ 1, -2, 5 }, { "shear modulus", "-2" });
-    expect_complaint<MooneyRivlin>({ nan, 0, 5 }, { "shear modulus" });
+    expect_complaint<MooneyRivlin>({ 1, -0.5, 5 }, { "c1 + 2 c2 = 0 Pa" });
+    expect_complaint<MooneyRivlin>({ -1, 0.75, 5 }, { "shear modulus", "-0.5" });
+    expect_complaint<MooneyRivlin>({ nan, 0, 5 }, { "c1 = nan", "finite" });
+    expect_complaint<MooneyRivlin>({ 1, -inf, 5 }, { "c2 = -inf", "finite" });
+    expect_complaint<MooneyRivlin>({ 1, 0, inf }, { "c = inf", "finite" });
     expect_complaint<MooneyRivlin>({ 1, 0, -1 }, { "bulk modulus", "-0.666667", "raise c = -1" });
-    expect_complaint<MooneyRivlin>({ 1, 0, nan }, { "bulk modulus" });
-    expect_complaint<MooneyRivlin>({ 1, 0, inf }, { "bulk modulus" });
 }
 
 TEST(LawNames, AreThoseOfTheFilesAndMessages)

@@ -22,8 +22,7 @@ TEST(NonlinearGaussSeidel, SolvesASingleContactInClosedForm)
         const Vec<2> q = p.free_approach().row(0).transpose(), n = contact.normal, t(-n.y(), n.x());
         const double rn = std::max(0.0, -q.dot(n) / W), most = contact.friction * rn;
         const double rt = std::clamp(-q.dot(t) / W, -most, most);
-        const int sweeps = tight.solve(p.problem);
-        EXPECT_LE(sweeps, 2) << "the second only to see that nothing changes";
+        EXPECT_LE(NonlinearGaussSeidel().solve(p.problem), 2) << "the second only to see that nothing changes";
         EXPECT_LE((contact.impulse - rn * n - rt * t).norm(), 1e-13 * q.norm() / W);
         EXPECT_NEAR(contact.inertia * W, 1, 1e-12);
         open += rn == 0;
@@ -70,7 +69,7 @@ TEST(NonlinearGaussSeidel, ResidualFollowsTheTolerance)
             RandomProblem p(random, 0, 0);
             p.press(random, 8, 0.2);
             sweeps += NonlinearGaussSeidel { tolerance, 10000 }.solve(p.problem);
-            sum += std::log(p.problem.residual());
+            sum += std::log(std::max(p.problem.residual(), 1e-16));
         }
         const double mean = std::exp(sum / 60);
         EXPECT_LE(mean, 2 * tolerance);
@@ -89,7 +88,7 @@ TEST(NonlinearGaussSeidel, StartsFromTheGivenImpulses)
         const Eigen::MatrixXd solution = p.impulses();
         p.reset(false); // free velocities, but the solution's impulses
         const int warm = tight.solve(p.problem);
-        EXPECT_GT(cold, 8);
+        EXPECT_GT(cold, warm);
         EXPECT_LE(warm, 3);
         EXPECT_LE((p.impulses() - solution).norm(), 1e-12 * solution.norm());
         const auto expected = p.velocities();
