@@ -120,7 +120,7 @@ def softBox(width, height, material=-1):
     from yade.utils import wall
 
     width, height = positive("softBox: width", width, "m"), positive("softBox: height", height, "m")
-    _rigid_material("softBox", material)
+    _frictional_material("softBox", material)
     return [wall(0.0, axis=0, sense=1, material=material), wall(width, axis=0, sense=-1, material=material),
             wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
 
@@ -234,12 +234,12 @@ def _soft_material(name, material):
     return found
 
 
-def _rigid_material(name, material):
+def _frictional_material(name, material):
     if material == -1 and not len(O.materials):
         return      # YADE's default material
     found = _material(name, material, "FrictMat")
-    if isinstance(found, wrapper.SoftMat) or not isinstance(found, wrapper.FrictMat):
-        raise InputError(f"{name}: material is a {type(found).__name__}: give walls a FrictMat of their own.")
+    if not isinstance(found, wrapper.FrictMat):
+        raise InputError(f"{name}: material is a {type(found).__name__}: give a FrictMat.")
 
 
 def _material(name, material, wanted):

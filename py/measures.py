@@ -115,7 +115,8 @@ def contactHalfWidth(outline, axis, wall, tolerance):
     for sign, last in ((-1, first), (1, final)):
         side = 1 if sign * (along[(last + 1) % len(gap)] - along[last - 1]) > 0 else -1
         near, far = (last + side) % len(gap), (last + 2 * side) % len(gap)
-        ratio = (gap[far] / gap[near])**(2 / 3)
+        # in a corner between two walls the boundary turns, and the neighbour touches too
+        ratio = (gap[far] / gap[near])**(2 / 3) if gap[near] > tolerance else 0.0
         end = (ratio * along[near] - along[far]) / (ratio - 1) if ratio > 1 else along[last]
         ends.append(sign * min(max(sign * end, sign * along[last]), sign * along[near]))
     return (ends[1] - ends[0]) / 2

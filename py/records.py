@@ -4,8 +4,6 @@ import json
 import math
 import os
 
-from .checks import InputError
-
 
 class Table:
     """A csv file with fixed columns. Every row is on disk when `append` returns."""
@@ -34,14 +32,14 @@ class Table:
 
     @staticmethod
     def _begin_of(path, count):
-        """The first lines of an older csv file, or InputError."""
+        """The first lines of an older csv file. Raises ValueError, one sentence, when there are fewer."""
         try:
             with open(path, encoding="ascii") as old:
                 lines = old.read().splitlines()[:count]
         except (OSError, UnicodeDecodeError):
             lines = []
         if len(lines) < count:
-            raise InputError(f"{path} holds {max(len(lines) - 1, 0)} rows, its checkpoint counts {count - 1}: start "
+            raise ValueError(f"{path} holds {max(len(lines) - 1, 0)} rows, its checkpoint counts {count - 1}: start "
                              "anew with --force.")
         return lines
 

@@ -4,7 +4,7 @@ from yade import O
 
 from .checks import InputError
 
-LEAST_STEPS = 10    # in the time between two outputs
+LEAST_STEPS = 4     # in the time between two outputs
 
 
 class WallForces:

@@ -30,6 +30,10 @@ public:
             "Contact points of two bodies at least one of which is a :yref:`SoftGrain`: surface points of the one near the boundary of the "
             "other.",
             ((vector<int>, savedPoints, , Attr::hidden, "Surface point and side of each contact point, in pairs [-]."))(
+                    (vector<int>, savedNear, , Attr::hidden, "List, surface point and face of each near point, in threes [-]."))(
+                    (vector<Real>, savedClear, , Attr::hidden, "Travel until which each near point is out of touch [m]."))(
+                    (Real, savedValid, -1, Attr::hidden, "Travel until which the near points are complete [m]."))(
+                    (Real, savedTravel, 0, Attr::hidden, "Travel of the rigid body [m]."))(
                     (vector<Vector2r>, savedForces, , Attr::hidden, "Force on each contact point's side in the last step [N/m].")),
             createIndex(),
             .def("pointCount", &SoftGeom::pointCount, "Number of contact points looked at in the last step, touching or about to [-]."));

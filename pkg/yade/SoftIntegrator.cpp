@@ -7,6 +7,8 @@
 
 #include "contact/polyline.hpp"
 
+#include <core/Omega.hpp>
+
 #include <chrono>
 #include <omp.h>
 
@@ -267,7 +269,7 @@ void SoftIntegrator::refuseOverlaps() const
             const auto& first         = pair.first->grain.surface;
             const auto &larger        = first.size > second.size ? first : second, &smaller = first.size > second.size ? second : first;
             const auto middle         = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;
-            const Real inside         = -softgrain::project(larger, middle, softgrain::nearest_vertex(larger, middle)).gap;
+            const Real inside         = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle)).gap;
             if (inside > 0) depth = std::max(depth, inside + smaller.size);
         }
         if (depth > 1e-3 * second.size)
@@ -336,6 +338,7 @@ void SoftIntegrator::requestCollider() const
 
 void SoftIntegrator::evaluate()
 {
+    scene = Omega::instance().getScene().get(); // a loaded engine still points to the scene before, until it runs
     for (const auto& body : *scene->bodies)
         if (softStateOf(*body) && !body->bound) return; // the first step has still to come
     adopt();

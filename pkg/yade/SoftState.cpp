@@ -81,6 +81,7 @@ void SoftState::prepare(const Body& body)
         fresh.velocity     = nodeVelocity;
         fresh.refresh();
         fresh.elastic_energy();
+        fresh.surface.travel = travel;
         if (outlineRise.size() == fresh.surface.rise.size()) fresh.surface.rise = outlineRise;
     }
     grain   = fresh;
@@ -118,6 +119,7 @@ void SoftState::preSave(SoftState&)
     nodeDisplacement = grain.displacement;
     nodeVelocity     = grain.velocity;
     outlineRise      = grain.surface.rise;
+    travel           = grain.surface.travel;
 }
 
 boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }

@@ -78,7 +78,8 @@ template <class T> SOFTGRAIN_INLINE T logarithm(const T& x)
     p = p * z + 1.0 / 7;
     p = p * z + 1.0 / 5;
     p = p * z + 1.0 / 3;
-    return e * 0.69314718055994530942 + 2.0 * (s + s * z * p);
+    // ln 2 in two parts, the first with zeros at its end, so that its product with e is exact
+    return e * 0.693147180369123816490 + (2.0 * s + (2.0 * s * z * p + e * 1.90821492927058770002e-10));
 }
 
 template <> SOFTGRAIN_INLINE double logarithm(const double& x) { return std::log(x); }

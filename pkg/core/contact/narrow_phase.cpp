@@ -43,7 +43,7 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         if (corners_only && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
-        const Projection at = project(other, x, nearest_vertex(other, x));
+        const Projection at = project(other, x, nearest_segment(other, x));
         if (at.gap < margin) found.push_back({ p, at.segment, 0 });
     }
 }
@@ -54,20 +54,20 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
     const bool second_smaller = second.mobility > 0 && (first.mobility == 0 || second.size < first.size);
     const Surface<Dim>&small = second_smaller ? second : first, &large = second_smaller ? first : second;
     const double near = reach(small, large.speed, dt);
-    if (first.travel + second.travel >= valid_until_) {
+    if (first.travel + second.travel + near >= memory.valid_until) {
         const double ahead = skin * small.size;
-        search(small, large, false, near + ahead, near_[0]);
-        search(large, small, true, near + ahead, near_[1]);
-        valid_until_ = first.travel + second.travel + ahead;
+        search(small, large, false, near + ahead, memory.near[0]);
+        search(large, small, true, near + ahead, memory.near[1]);
+        memory.valid_until = first.travel + second.travel + near + ahead;
     }
-    if (near_[0].empty() && near_[1].empty() && points.empty()) return;
+    if (memory.near[0].empty() && memory.near[1].empty() && points.empty()) return;
     const double travel = first.travel + second.travel;
     thread_local std::vector<ContactPoint<Dim>> fresh; // keeps its room from pair to pair
     fresh.clear();
     for (bool on_second : { false, true }) {
         const bool mine_small = on_second == second_smaller;
         const Surface<Dim>&mine = on_second ? second : first, &other = on_second ? first : second;
-        for (Candidate& candidate : near_[mine_small ? 0 : 1]) {
+        for (Candidate& candidate : memory.near[mine_small ? 0 : 1]) {
             if (travel + near < candidate.clear_until) continue;
             const Projection at = project(other, mine.x(candidate.point), candidate.face);
             candidate.face = at.segment;

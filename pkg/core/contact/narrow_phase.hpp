@@ -34,17 +34,23 @@ public:
 
     std::vector<ContactPoint<Dim>> points;
     /// Points of the one are so near the other that the pair is worth keeping.
-    bool near() const { return !near_[0].empty() || !near_[1].empty(); }
+    bool near() const { return !memory.near[0].empty() || !memory.near[1].empty(); }
 
-private:
     struct Candidate {
         int point, face;
         double clear_until; ///< total travel of both bodies up to which the point is out of touch by its last gap [m]
     };
+    /// What the next update starts from besides `points`: the points of the smaller body and the corners of the larger
+    /// that are near, and the travel of both bodies plus reach up to which that is complete [m].
+    struct Memory {
+        std::array<std::vector<Candidate>, 2> near;
+        double valid_until = -1;
+    };
+    Memory memory;
+
+private:
     void search(const Surface<Dim>& mine, const Surface<Dim>& other, bool corners_only, double margin,
                 std::vector<Candidate>& found) const;
-    std::array<std::vector<Candidate>, 2> near_; ///< points of the smaller body, corners of the larger
-    double valid_until_ = -1; ///< total travel up to which `near_` is complete [m]
 };
 
 template <int Dim> class PlaneContacts {

@@ -26,19 +26,14 @@ namespace {
         {
         }
 
-        /// Root t of cross(x - start - t chord, n(t)) = 0, n linear between the end normals; Newton from the
-        /// chord's own projection (the equation is quadratic with a small second-order term).
+        /// Root t of cross(x - start - t chord, n(t)) = 0, n linear between the end normals: of the two, the one that
+        /// stays when the segment is straight.
         double foot(const Vec<2>& x) const
         {
             const Vec<2> q = x - start, turn = normal_end - normal_start;
             const double a = cross(q, normal_start), b = cross(q, turn) - cross(chord, normal_start), c = -cross(chord, turn);
-            double t = q.dot(chord) / chord.squaredNorm();
-            for (int i = 0; i < 2; ++i) {
-                const double slope = b + 2 * c * t;
-                if (slope == 0) break;
-                t -= (a + t * (b + c * t)) / slope;
-            }
-            return t;
+            const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
+            return -2 * a / (b + std::copysign(root, b));
         }
         Vec<2> normal(double t) const { return ((1 - t) * normal_start + t * normal_end).normalized(); }
         double gap(const Vec<2>& x, double t, const Vec<2>& n) const
@@ -67,12 +62,14 @@ void follow_shape(Surface<2>& polyline, double share)
     }
 }
 
-int nearest_vertex(const Surface<2>& polyline, const Vec<2>& x)
+int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
 {
     int best = 0;
-    double least = (polyline.x(0) - x).squaredNorm();
-    for (int i = 1; i < polyline.count; ++i) {
-        const double distance = (polyline.x(i) - x).squaredNorm();
+    double least = 1e300;
+    for (int i = 0; i < polyline.count; ++i) {
+        const Vec<2> start = polyline.x(i), chord = polyline.x(i + 1 == polyline.count ? 0 : i + 1) - start;
+        const double t = std::clamp((x - start).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
+        const double distance = (x - start - t * chord).squaredNorm();
         if (distance < least) {
             least = distance;
             best = i;

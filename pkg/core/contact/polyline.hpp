@@ -26,7 +26,7 @@ Projection project(const Surface<2>& polyline, const Vec<2>& x, int hint);
 /// gap changes as the foot and the point move: the contact law acts on just that.
 void follow_shape(Surface<2>& polyline, double share);
 
-/// The vertex nearest to x, by looking at all of them.
-int nearest_vertex(const Surface<2>& polyline, const Vec<2>& x);
+/// The segment nearest to x, by looking at all of them.
+int nearest_segment(const Surface<2>& polyline, const Vec<2>& x);
 
 } // namespace softgrain

@@ -39,11 +39,15 @@ namespace {
         return kept;
     }
 
-    bool edges_cross(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d)
+    /// The edges ab and cd have a point in common.
+    bool edges_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d)
     {
+        for (int axis = 0; axis < 2; ++axis)
+            if (std::max(a[axis], b[axis]) < std::min(c[axis], d[axis]) || std::max(c[axis], d[axis]) < std::min(a[axis], b[axis]))
+                return false;
         const double abc = cross(b - a, c - a), abd = cross(b - a, d - a);
         const double cda = cross(d - c, a - c), cdb = cross(d - c, b - c);
-        return abc * abd < 0 && cda * cdb < 0;
+        return abc * abd <= 0 && cda * cdb <= 0;
     }
 
 } // namespace
@@ -58,10 +62,14 @@ PolygonOutline::PolygonOutline(Polygon vertices)
         if (!vertices_[i].allFinite())
             throw UserError("soft grain outline: vertex " + std::to_string(i) + " is not finite; give finite coordinates in metres.");
     for (size_t i = 0; i < count; ++i)
+        if (vertices_[i] == vertices_[(i + 1) % count])
+            throw UserError("soft grain outline: vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % count)
+                            + " are the same; give each corner once.");
+    for (size_t i = 0; i < count; ++i)
         for (size_t j = i + 2; j < count; ++j)
-            if (edges_cross(vertices_[i], vertices_[i + 1], vertices_[j], vertices_[(j + 1) % count]))
+            if ((j + 1) % count != i && edges_meet(vertices_[i], vertices_[i + 1], vertices_[j], vertices_[(j + 1) % count]))
                 throw UserError("soft grain outline: the edges from vertices " + std::to_string(i) + " and " + std::to_string(j)
-                                + " cross; list the vertices in order around the grain.");
+                                + " cross or touch; list the vertices in order around the grain.");
     const Vec<2> near = vertices_[0]; // moments about a vertex lose no digits far from the origin
     for (auto& vertex : vertices_)
         vertex -= near;

@@ -17,6 +17,7 @@ template <int Dim> struct Discretisation<Dim>::Cells {
     Vec<Dim> origin;
     Index size;
     std::vector<Moments<Dim>> region; ///< per cell: what the region hosted by this cell holds; none: volume 0
+    std::vector<char> full;           ///< per cell: the region is just this cell, whole
 
     Cells(const Outline<Dim>& outline, const Resolution& resolution, double across)
     {
@@ -29,21 +30,23 @@ template <int Dim> struct Discretisation<Dim>::Cells {
             size[d] = count + (shift > 0 ? 1 : 0);
             origin[d] = (bounds.min[d] + bounds.max[d] - count * width) / 2 - shift * width;
         }
-        const double full = std::pow(width, Dim);
+        const double full_volume = std::pow(width, Dim);
         std::vector<Moments<Dim>> inside(size.prod());
         for (int c = 0; c < int(inside.size()); ++c) {
             const Vec<Dim> corner = origin + width * index(c).template cast<double>();
             const Moments<Dim> part = outline.moments(Box<Dim> { corner, corner + Vec<Dim>::Constant(width) });
-            if (part.volume > 1e-14 * full) inside[c] = part;
+            if (part.volume > 1e-14 * full_volume) inside[c] = part;
         }
         region = inside;
         for (int c = 0; c < int(inside.size()); ++c) {
-            if (inside[c].volume == 0 || inside[c].volume >= resolution.merge_threshold * full) continue;
+            if (inside[c].volume == 0 || inside[c].volume >= resolution.merge_threshold * full_volume) continue;
             const int host = fullest_neighbour(inside, c);
-            if (inside[host].volume < resolution.merge_threshold * full) continue;
+            if (inside[host].volume < resolution.merge_threshold * full_volume) continue;
             region[host] += inside[c];
             region[c] = {};
         }
+        for (int c = 0; c < int(inside.size()); ++c)
+            full.push_back(std::abs(inside[c].volume / full_volume - 1) < 1e-12 && region[c].volume == inside[c].volume);
     }
 
     Index index(int cell) const
@@ -178,7 +181,7 @@ template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
             const Vec<Dim> x = region.centroid() + root * corner;
             by_cell[cells.cell_of(x)].push_back(x);
         }
-        const bool full = std::abs(region.volume / std::pow(cell_width, Dim) - 1) < 1e-12;
+        const bool full = cells.full[c];
         regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume, full });
         for (const auto& [cell, positions] : by_cell) {
             const int in_block = int(positions.size());

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Free flight: what has to stay constant, and what stops a run.
+#include "support/world.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace softgrain;
+using namespace softgrain::testing_support;
+
+namespace {
+
+double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+struct Sums {
+    Vec<2> momentum = Vec<2>::Zero();
+    double angular = 0; ///< about the origin
+    explicit Sums(const World& world)
+    {
+        for (const auto& g : world.grains) {
+            momentum += g.mass() * g.motion.velocity;
+            angular += g.motion.angular_momentum[0] + g.mass() * cross(g.motion.position, g.motion.velocity);
+        }
+    }
+};
+
+double step_of(Grain<2>& grain, double share) { return share * critical_step(grain, unit_critical_step(grain)); }
+
+// The force has no resultant and no couple, and positions move along momenta: symplectic Euler keeps both sums exactly;
+// each step rounds anew.
+TEST(FreeFlight, KeepsMomentumAndAngularMomentum)
+{
+    for (const Material& material : { neo_hookean(), mooney_rivlin() })
+        for (int count : { 1, 3 }) { // one lane, many lanes
+            World world;
+            for (int g = 0; g < count; ++g) {
+                GrainStart start;
+                start.centre = Vec<2>(0.01 * g, 0.005);
+                start.velocity = Vec<2>(3, -2 + g);
+                start.velocity_gradient = spin(4000) + (Mat<2>() << 2000, 500, -300, -1500).finished();
+                world.add(make_grain(disc_mesh(124), material, start));
+            }
+            const Sums before(world);
+            const double dt = step_of(world.grains[0], 0.6);
+            constexpr int steps = 5000;
+            for (int k = 0; k < steps; ++k)
+                world.step(dt);
+            const Sums after(world);
+            const double round_off = 4 * std::sqrt(double(steps)) * 0x1p-53 * 100; // random walk of 100 roundings a step
+            EXPECT_LE((after.momentum - before.momentum).norm(), round_off * before.momentum.norm()) << material.law;
+            EXPECT_NEAR(after.angular / before.angular, 1, round_off) << material.law;
+            std::printf("%s, %d grains, %d steps: momentum %.1e, angular momentum %.1e (relative)\n", material.law, count, steps,
+                        (after.momentum - before.momentum).norm() / before.momentum.norm(), after.angular / before.angular - 1);
+        }
+}
+
+// Vibrating and spinning, no contact: kinetic + elastic energy of one instant oscillates by O(dt^2) and does not drift.
+TEST(FreeFlight, KeepsEnergyToOrder2)
+{
+    double error[2];
+    for (int k = 0; k < 2; ++k) {
+        World world;
+        GrainStart start;
+        start.velocity_gradient = spin(3000) + (Mat<2>() << 4000, 0, 0, -4000).finished();
+        world.add(make_grain(disc_mesh(124), neo_hookean(), start));
+        const double dt = step_of(world.grains[0], k == 0 ? 0.6 : 0.3);
+        world.step(dt);
+        const double first = world.energy();
+        error[k] = 0;
+        while (world.time < 1e-3) {
+            world.step(dt);
+            error[k] = std::max(error[k], std::abs(world.energy() / first - 1));
+        }
+    }
+    EXPECT_LE(error[0], 2e-3); // (omega dt)^2 / 8 of the modes that move: omega dt of 0.1
+    EXPECT_NEAR(std::log2(error[0] / error[1]), 2, 0.4);
+    std::printf("energy of a free vibration: %.1e at 0.6 of the critical step, %.1e at 0.3\n", error[0], error[1]);
+}
+
+// A slow spin: the centrifugal strain, rho omega^2 R^2 / mu = 8e-4 at 1000 rad/s, changes the rate by as much.
+TEST(FreeFlight, SpinsAtItsRate)
+{
+    World world;
+    GrainStart start;
+    start.velocity_gradient = spin(1000);
+    world.add(make_grain(disc_mesh(124), neo_hookean(), start));
+    const double dt = step_of(world.grains[0], 0.6), whole = 2 * M_PI / 1000;
+    while (world.time < whole)
+        world.step(dt);
+    const Mat<2> F = world.grains[0].motion.mean_gradient;
+    const double angle = std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1)); // polar decomposition in the plane
+    EXPECT_NEAR(angle, 1000 * world.time - 2 * M_PI, 2 * M_PI * 2e-3);
+    world.evaluate();
+    EXPECT_GT(world.grains[0].min_stretch, 1 - 2e-3);
+    EXPECT_LE(world.grains[0].motion.position.norm(), 1e-12);
+}
+
+// v_n = n g dt, x_n = g dt^2 n (n + 1) / 2.
+TEST(FreeFlight, FallsAsSymplecticEulerSays)
+{
+    World world;
+    for (int g = 0; g < 2; ++g) {
+        GrainStart start;
+        start.centre = Vec<2>(0.01 * g, 0);
+        world.add(make_grain(disc_mesh(60), neo_hookean(), start, g ? 2e-3 : 1e-3));
+    }
+    world.gravity = Vec<2>(1.5, -9.81);
+    constexpr double dt = 2e-7;
+    constexpr int steps = 2000;
+    for (int k = 0; k < steps; ++k)
+        world.step(dt);
+    for (int g = 0; g < 2; ++g) {
+        const Motion<2>& motion = world.grains[g].motion;
+        EXPECT_LE((motion.velocity - steps * dt * world.gravity).norm(), 1e-14);
+        EXPECT_LE((motion.position - Vec<2>(0.01 * g, 0) - dt * dt * steps * (steps + 1) / 2 * world.gravity).norm(), 1e-16);
+    }
+}
+
+TEST(FreeFlight, GoesOnTheSameAfterAPause)
+{
+    World through, paused;
+    for (World* world : { &through, &paused })
+        for (int g = 0; g < 3; ++g) {
+            GrainStart start;
+            start.centre = Vec<2>(0.01 * g, 0);
+            start.velocity_gradient = spin(500 * g) + (Mat<2>() << 2000, 500, -300, -1500).finished();
+            world->add(make_grain(disc_mesh(60), neo_hookean(), start));
+        }
+    for (int k = 0; k < 200; ++k) {
+        through.step(2e-7);
+        if (k == 77) paused.release();
+        paused.step(2e-7);
+    }
+    through.release();
+    paused.release();
+    for (int g = 0; g < 3; ++g) {
+        EXPECT_EQ(through.grains[g].displacement, paused.grains[g].displacement);
+        EXPECT_EQ(through.grains[g].velocity, paused.grains[g].velocity);
+    }
+}
+
+/// The message of the SimulationError of a step, or "".
+std::string failure(World& world, double dt, int steps = 1)
+{
+    try {
+        for (int k = 0; k < steps; ++k)
+            world.step(dt);
+    } catch (const SimulationError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void add_grains(World& world, int count)
+{
+    for (int g = 0; g < count; ++g) {
+        GrainStart start;
+        start.centre = Vec<2>(0.01 * g, 0);
+        world.add(make_grain(disc_mesh(60), neo_hookean(), start));
+    }
+}
+
+// The guards have to hold in one lane and in many, also where the compiler may reorder arithmetic.
+TEST(FreeFlight, StopsAtAPointTurnedInsideOut)
+{
+    for (int count : { 1, 5 }) {
+        World world;
+        add_grains(world, count);
+        Grain<2>& grain = world.grains.back();
+        for (int i = 0; i < grain.mesh->master_count; ++i)
+            grain.displacement[2 * i] = -1.2 * grain.mesh->node_position[i].x(); // J = -0.2
+        const std::string message = failure(world, 1e-8);
+        EXPECT_NE(message.find("#" + std::to_string(count - 1)), std::string::npos) << message;
+        EXPECT_NE(message.find("inside out (J = -0.2)"), std::string::npos) << message;
+    }
+}
+
+TEST(FreeFlight, StopsAtValuesThatAreNotFinite)
+{
+    for (double bad : { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+        for (int count : { 1, 5 })
+            for (bool velocity : { true, false }) {
+                World world;
+                add_grains(world, count);
+                Grain<2>& grain = world.grains.back();
+                (velocity ? grain.velocity : grain.displacement)[7] = bad;
+                const std::string message = failure(world, 1e-8);
+                EXPECT_NE(message.find("#" + std::to_string(count - 1)), std::string::npos) << message << bad << velocity;
+            }
+}
+
+TEST(FreeFlight, StopsAtAStepOverTheStableLimit)
+{
+    World world;
+    add_grains(world, 2);
+    world.grains[1].velocity[3] += 1e-3;
+    const double dt = 1.05 * critical_step(world.grains[1], unit_critical_step(world.grains[1]));
+    EXPECT_NE(failure(world, dt, 2000), "");
+}
+
+TEST(FreeFlight, StopsAtAGrainThatOutrunsContact)
+{
+    World world;
+    add_grains(world, 1);
+    GrainStart start;
+    start.velocity = Vec<2>(1e4, 0);
+    world.grains[0].place(start.centre, turn(0), start.velocity, Mat<2>::Zero());
+    const std::string message = failure(world, 1e-6);
+    EXPECT_NE(message.find("radii in one step"), std::string::npos) << message;
+    World slow;
+    add_grains(slow, 1);
+    EXPECT_EQ(failure(slow, 1e-7), "");
+}
+
+} // namespace

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Discs between two frictionless rigid plates that approach each other, and what is read from it.
+#pragma once
+
+#include "support/world.hpp"
+
+#include <functional>
+
+namespace softgrain::testing_support {
+
+/// Means over a window of squeeze: force and squeeze belong together only when averaged over the same steps.
+struct Window {
+    double squeeze, force; ///< relative approach of the plates; mean force on both plates [N/m]
+    double area_ratio, half_width; ///< at the window's last step; its squeeze follows
+    double squeeze_at_end;
+};
+
+struct Squeeze {
+    std::vector<Window> windows;
+    double min_J = 1, deepest = 0, residual = 0; ///< smallest J; deepest gap [m]; energy not accounted for, relative
+    int steps = 0;
+};
+
+struct SqueezeCase {
+    Material material = neo_hookean();
+    int points = 276, discs = 1; ///< discs: one upon the other
+    double offset_x = 0, offset_y = 0, angle = 0;
+    double speed = 0.1; ///< of each plate [m/s]
+    double until = 0.4, window = 0.005;
+    double radius = 1e-3;
+};
+
+inline Squeeze squeeze(const SqueezeCase& c, const std::function<void(const World&, double)>& observe = {})
+{
+    World world;
+    const auto mesh = disc_mesh(c.points, c.offset_x, c.offset_y);
+    for (int k = 0; k < c.discs; ++k) {
+        GrainStart start;
+        start.centre = Vec<2>(0, (2 * k + 1 - c.discs) * c.radius);
+        start.angle = c.angle + 2.4 * k;
+        world.add(make_grain(mesh, c.material, start, c.radius));
+    }
+    const double half = c.discs * c.radius;
+    world.planes = { { 1, 1, -half, c.speed }, { 1, -1, half, -c.speed } };
+    const double unit = unit_critical_step(world.grains[0]);
+    double dt = 0.6 * critical_step(world.grains[0], unit);
+    Squeeze result;
+    double force = 0, place = 0, next = c.window;
+    int count = 0;
+    const auto squeeze_now = [&] { return 1 - world.planes[1].position / half; };
+    while (squeeze_now() < c.until + c.window / 2) {
+        const double before = squeeze_now();
+        world.step(dt);
+        force += (world.plane_force[1].y() - world.plane_force[0].y()) / 2;
+        place += (before + squeeze_now()) / 2;
+        ++count;
+        result.deepest = std::min(result.deepest, world.deepest);
+        if (squeeze_now() < next) continue;
+        world.evaluate();
+        dt = 1e300;
+        for (const auto& grain : world.grains) {
+            dt = std::min(dt, 0.6 * critical_step(grain, unit));
+            result.min_J = std::min(result.min_J, grain.min_J);
+        }
+        Grain<2> copy = world.grains[0];
+        copy.pull();
+        double area = 0;
+        const auto F = copy.deformation_gradients();
+        for (size_t p = 0; p < F.size(); ++p)
+            area += mesh->point_volume[p] * F[p].determinant() / M_PI;
+        const double half_width = (copy.surface.max.x() - copy.surface.min.x()) / 2;
+        result.windows.push_back({ place / count, force / count, area, half_width, squeeze_now() });
+        if (observe) observe(world, place / count);
+        force = place = 0;
+        count = 0;
+        next += c.window;
+    }
+    const double total = world.energy() + world.balance.contact_dissipation;
+    result.residual = total / world.balance.external_work - 1;
+    result.steps = world.steps;
+    return result;
+}
+
+} // namespace softgrain::testing_support
