@@ -4,8 +4,6 @@
 
 #include "support/world.hpp"
 
-#include <functional>
-
 namespace softgrain::testing_support {
 
 /// Means over a window of squeeze: force and squeeze belong together only when averaged over the same steps.
@@ -13,11 +11,13 @@ struct Window {
     double squeeze, force; ///< relative approach of the plates; mean force on both plates [N/m]
     double area_ratio, half_width; ///< at the window's last step; its squeeze follows
     double squeeze_at_end;
+    double between; ///< mean force between two discs [N/m]
 };
 
 struct Squeeze {
     std::vector<Window> windows;
     double min_J = 1, deepest = 0, residual = 0; ///< smallest J; deepest gap [m]; energy not accounted for, relative
+    double off_middle = 0; ///< how far from the middle two discs meet [m]
     int steps = 0;
 };
 
@@ -30,14 +30,14 @@ struct SqueezeCase {
     double radius = 1e-3;
 };
 
-inline Squeeze squeeze(const SqueezeCase& c, const std::function<void(const World&, double)>& observe = {})
+inline Squeeze squeeze(const SqueezeCase& c)
 {
     World world;
     const auto mesh = disc_mesh(c.points, c.offset_x, c.offset_y);
     for (int k = 0; k < c.discs; ++k) {
         GrainStart start;
         start.centre = Vec<2>(0, (2 * k + 1 - c.discs) * c.radius);
-        start.angle = c.angle + 2.4 * k;
+        start.angle = c.angle;
         world.add(make_grain(mesh, c.material, start, c.radius));
     }
     const double half = c.discs * c.radius;
@@ -45,14 +45,18 @@ inline Squeeze squeeze(const SqueezeCase& c, const std::function<void(const Worl
     const double unit = unit_critical_step(world.grains[0]);
     double dt = 0.6 * critical_step(world.grains[0], unit);
     Squeeze result;
-    double force = 0, place = 0, next = c.window;
+    double force = 0, between = 0, place = 0, next = c.window;
     int count = 0;
     const auto squeeze_now = [&] { return 1 - world.planes[1].position / half; };
     while (squeeze_now() < c.until + c.window / 2) {
         const double before = squeeze_now();
         world.step(dt);
+        // two discs on each other are unstable: without friction one slides off the other, at a rate of sqrt(F / m R)
+        if (c.discs > 1 && world.steps % 20 == 0) world.guide();
         force += (world.plane_force[1].y() - world.plane_force[0].y()) / 2;
         place += (before + squeeze_now()) / 2;
+        for (const auto& contact : world.problem.contacts)
+            if (contact.other >= 0) between += std::abs(contact.impulse.y()) / world.dt;
         ++count;
         result.deepest = std::min(result.deepest, world.deepest);
         if (squeeze_now() < next) continue;
@@ -69,9 +73,9 @@ inline Squeeze squeeze(const SqueezeCase& c, const std::function<void(const Worl
         for (size_t p = 0; p < F.size(); ++p)
             area += mesh->point_volume[p] * F[p].determinant() / M_PI;
         const double half_width = (copy.surface.max.x() - copy.surface.min.x()) / 2;
-        result.windows.push_back({ place / count, force / count, area, half_width, squeeze_now() });
-        if (observe) observe(world, place / count);
-        force = place = 0;
+        result.windows.push_back({ place / count, force / count, area, half_width, squeeze_now(), between / count });
+        result.off_middle = std::max(result.off_middle, std::abs(world.grains.front().surface.max.y() + world.grains.back().surface.min.y()) / 2);
+        force = between = place = 0;
         count = 0;
         next += c.window;
     }

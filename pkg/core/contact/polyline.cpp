@@ -47,11 +47,11 @@ namespace {
 void follow_shape(Surface<2>& polyline, double share)
 {
     const int n = polyline.count;
-    // half the turn at a vertex, from the edges before and after it
+    // tangent of half the turn at a vertex, from the edges before and after it
     const auto half_turn = [&](int i) {
         if (polyline.corner[i]) return 0.0;
         const Vec<2> before = polyline.x(i) - polyline.x(i == 0 ? n - 1 : i - 1), after = polyline.x(i + 1 == n ? 0 : i + 1) - polyline.x(i);
-        return cross(before, after) / (before.squaredNorm() + after.squaredNorm());
+        return cross(before, after) / ((before.squaredNorm() + after.squaredNorm()) / 2 + before.dot(after));
     };
     const double first = half_turn(0);
     double start = first;

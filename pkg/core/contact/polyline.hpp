@@ -16,7 +16,7 @@ struct Projection {
 /// Projects x on the outline, a parabola over each segment that rises from its ends with the slopes -+`rise`. The
 /// normal n(t) is that of the parabola and the foot (1 - t) a + t b lies on it under the point, so that the gap
 /// changes by n . dx as the point moves, and a normal contact force makes no couple. A sampled circle of radius R
-/// keeps its radius to about R (angle step)^4 / 200. Between two segments, at a corner, the vertex is the foot.
+/// keeps its radius to R (angle step)^4 / 128. Between two segments, at a corner, the vertex is the foot.
 ///
 /// Walks from segment `hint` to the segment that holds the foot: the nearest one from any near start.
 Projection project(const Surface<2>& polyline, const Vec<2>& x, int hint);

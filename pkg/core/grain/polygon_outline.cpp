@@ -61,15 +61,6 @@ PolygonOutline::PolygonOutline(Polygon vertices)
     for (size_t i = 0; i < count; ++i)
         if (!vertices_[i].allFinite())
             throw UserError("soft grain outline: vertex " + std::to_string(i) + " is not finite; give finite coordinates in metres.");
-    for (size_t i = 0; i < count; ++i)
-        if (vertices_[i] == vertices_[(i + 1) % count])
-            throw UserError("soft grain outline: vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % count)
-                            + " are the same; give each corner once.");
-    for (size_t i = 0; i < count; ++i)
-        for (size_t j = i + 2; j < count; ++j)
-            if ((j + 1) % count != i && edges_meet(vertices_[i], vertices_[i + 1], vertices_[j], vertices_[(j + 1) % count]))
-                throw UserError("soft grain outline: the edges from vertices " + std::to_string(i) + " and " + std::to_string(j)
-                                + " cross or touch; list the vertices in order around the grain.");
     const Vec<2> near = vertices_[0]; // moments about a vertex lose no digits far from the origin
     for (auto& vertex : vertices_)
         vertex -= near;
@@ -77,7 +68,17 @@ PolygonOutline::PolygonOutline(Polygon vertices)
     double extent = 0;
     for (const auto& vertex : vertices_)
         extent = std::max(extent, vertex.norm());
-    if (!(std::abs(whole.volume) > 1e-9 * extent * extent))
+    const bool with_area = std::abs(whole.volume) > 1e-9 * extent * extent;
+    for (size_t i = 0; i < count; ++i)
+        if (with_area && vertices_[i] == vertices_[(i + 1) % count])
+            throw UserError("soft grain outline: vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % count)
+                            + " are the same; give each corner once.");
+    for (size_t i = 0; i < count; ++i)
+        for (size_t j = i + 2; j < count; ++j)
+            if ((j + 1) % count != i && edges_meet(vertices_[i], vertices_[i + 1], vertices_[j], vertices_[(j + 1) % count]))
+                throw UserError("soft grain outline: the edges from vertices " + std::to_string(i) + " and " + std::to_string(j)
+                                + " cross or touch; list the vertices in order around the grain.");
+    if (!with_area)
         throw UserError("soft grain outline: the vertices enclose no area; list the corners of a polygon.");
     if (whole.volume < 0) std::reverse(vertices_.begin(), vertices_.end());
     centroid_ = whole.centroid() + near;

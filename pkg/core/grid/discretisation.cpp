@@ -281,7 +281,7 @@ template <int Dim> void Discretisation<Dim>::bind_slaves(double threshold)
             }
             const Eigen::MatrixXd normal = A.transpose() * W.asDiagonal() * A;
             const Eigen::FullPivLU<Eigen::MatrixXd> solver(normal);
-            if (int(near.size()) <= Dim || solver.rcond() < 1e-4) {
+            if (int(near.size()) <= Dim || !solver.isInvertible() || solver.rcond() < 1e-4) {
                 if (reach > 100)
                     throw UserError("soft grain: the shape is too thin for its grid of cells "
                                     + shown(cell_width) + " radii wide; give more points.");

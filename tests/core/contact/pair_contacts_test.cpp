@@ -120,7 +120,7 @@ void tumble(Surface<2> first, Surface<2> second, double step, bool jumps, unsign
         touches += contacts > 0;
         only_near += contacts == 0 && pair.near();
     }
-    EXPECT_GT(touches, 400);
+    EXPECT_GT(touches, 200);
     EXPECT_GT(only_near, 50);
 }
 

@@ -35,8 +35,8 @@ double circle_error(int count, double lo, double hi, Random& random)
     return worst;
 }
 
-// Over a chord of a circle, angle theta, the arc rises by R (1 - cos(theta/2)); the parabola with rise sin(theta)/2, half
-// the turn at a vertex, by R sin(theta) sin(theta/2) / 4. They differ by (9/384) R theta^4: order 4. (The chord alone is
+// Over a chord of a circle, angle theta, the arc rises by R (1 - cos(theta/2)); the parabola with rise tan(theta/2)
+// by R sin(theta/2) tan(theta/2) / 2. They differ by R theta^4 / 128: order 4. (The chord alone is
 // off by R theta^2 / 8.)
 TEST(Projection, GapOfASampledCircleIsOfOrder4)
 {
@@ -52,7 +52,7 @@ TEST(Projection, GapOfASampledCircleIsOfOrder4)
 }
 
 // The normal turns from -atan(rise) to atan(rise) over a segment, by theta - O(theta^3) of the arc's theta.
-TEST(Projection, NormalOfASampledCircleIsRadialToOrder3)
+TEST(Projection, NormalOfASampledCircleIsRadial)
 {
     Random random(2);
     std::vector<double> error;
@@ -63,11 +63,9 @@ TEST(Projection, NormalOfASampledCircleIsRadialToOrder3)
             const Vec<2> x = (1 + random.uniform(-1e-3, 1e-3)) * random.unit<2>();
             error.back() = std::max(error.back(), (project_from_nearest(surface, x).normal - x.normalized()).norm());
         }
-        // at the ends: theta/2 - atan(sin(theta)/2) = theta^3 / 8
-        EXPECT_LE(error.back(), std::pow(2 * M_PI / count, 3) / 8 * 1.05);
+        // the parabola's normals at the ends, of slope tan(theta/2), meet in the centre, and so do all between
+        EXPECT_LE(error.back(), 1e-13);
     }
-    for (size_t k = 1; k < error.size(); ++k)
-        EXPECT_NEAR(std::log2(error[k - 1] / error[k]), 3, 0.15);
 }
 
 /// Smooth shapes, sampled; the largest turn of the boundary at a vertex [rad].
@@ -134,12 +132,13 @@ TEST(Projection, GapChangesAsThePointMovesAlongTheNormal)
     }
 }
 
-// A normal contact force makes no couple when foot, point and normal are in line. Newton's two steps on the foot leave
-// the fourth power of a first error of (distance / radius of curvature) x (segment / radius of curvature).
+// A normal contact force makes no couple when foot, point and normal are in line: everywhere but between two segments,
+// where the vertex is the foot.
 TEST(Projection, FootPointAndNormalAreInLine)
 {
     Random random(4);
-    for (const auto& [distance, tolerance] : { std::make_pair(1e-3, 1e-15), std::make_pair(2e-2, 1e-12) })
+    int checked = 0;
+    for (const double distance : { 1e-3, 2e-2 })
         for (const auto& shape : smooth_shapes())
             for (int trial = 0; trial < 2000; ++trial) {
                 const int p = random.integer(0, shape.surface.count - 1);
@@ -150,8 +149,11 @@ TEST(Projection, FootPointAndNormalAreInLine)
                 ASSERT_GE(at.t, 0);
                 ASSERT_LE(at.t, 1);
                 ASSERT_NEAR(at.normal.norm(), 1, 1e-15);
-                ASSERT_NEAR(cross(x - foot, at.normal), 0, tolerance) << shape.name;
+                if (at.t == 0) continue;
+                ++checked;
+                ASSERT_NEAR(cross(x - foot, at.normal), 0, 1e-15) << shape.name;
             }
+    EXPECT_GT(checked, 8000);
 }
 
 // From segment to segment the normal jumps by the difference of the rises and by turn^3, the gap by that times the distance
@@ -252,18 +254,18 @@ TEST(Projection, PolygonWithAcuteCornersHasStraightFacesToo)
         expect_distances("triangle", { { 0, 0 }, { 2, 0.1 }, { 0.6, 1.5 } }, spacing);
 }
 
-// The rise of a segment is the mean of half the turns at its ends; it follows the shape as 1 - (1 - share)^n.
+// The rise of a segment is the mean of the tangents of half the turns at its ends; it follows the shape as 1 - (1 - share)^n.
 TEST(FollowShape, TakesHalfTheTurnAndGoesThereByShares)
 {
     Surface<2> surface = circle(40);
     const double theta = 2 * M_PI / 40;
     for (double rise : surface.rise)
-        EXPECT_NEAR(rise, std::sin(theta) / 2, 1e-14);
+        EXPECT_NEAR(rise, std::tan(theta / 2), 1e-14);
     surface.rise.assign(40, 0);
     for (int n = 1; n <= 100; ++n) {
         follow_shape(surface, 0.02);
         for (double rise : surface.rise)
-            ASSERT_NEAR(rise, std::sin(theta) / 2 * (1 - std::pow(0.98, n)), 1e-14);
+            ASSERT_NEAR(rise, std::tan(theta / 2) * (1 - std::pow(0.98, n)), 1e-14);
     }
 }
 

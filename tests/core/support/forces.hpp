@@ -64,13 +64,31 @@ inline Eigen::MatrixXd stiffness(const Grain<2>& grain)
     return K;
 }
 
-/// Natural frequencies [Hz], smallest first; rigid motions are the first three.
-inline Eigen::VectorXd frequencies(const Grain<2>& grain)
+struct Mode {
+    double frequency; ///< [Hz]
+    /// Kinetic energy of the material points in that of the lumped nodes: below 1, since splines smooth what nodes do; near
+    /// 0 for motions from node to node that the material hardly follows.
+    double share;
+    std::vector<double> shape; ///< nodal velocities, [node][Dim] [radius/s]
+};
+
+/// All natural modes, lowest first, without the three rigid motions.
+inline std::vector<Mode> modes(Grain<2> grain)
 {
     const Eigen::VectorXd root = masses(grain).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd K = stiffness(grain), A = root.asDiagonal() * (K + K.transpose()) / 2 * root.asDiagonal();
-    const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
-    return squares.cwiseAbs().cwiseSqrt() / (2 * M_PI);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+    std::vector<Mode> all;
+    for (int k = 3; k < A.rows(); ++k) {
+        const Eigen::VectorXd v = root.asDiagonal() * solver.eigenvectors().col(k); // of kinetic energy 1/2
+        grain.velocity.assign(v.data(), v.data() + v.size());
+        const auto at_points = grain.point_velocities();
+        double share = 0;
+        for (size_t p = 0; p < at_points.size(); ++p)
+            share += grain.density * grain.mesh->point_volume[p] * at_points[p].squaredNorm(); // radii cancel
+        all.push_back({ std::sqrt(std::max(0.0, solver.eigenvalues()[k])) / (2 * M_PI), share, grain.velocity });
+    }
+    return all;
 }
 
 } // namespace softgrain::testing_support

@@ -77,6 +77,25 @@ public:
     }
     /// Hands the fields back to the grains; the next step takes them in again.
     void release() { assembly_.reset(); }
+    /// Takes out each grain's place and velocity along x, as a guide along the y axis would.
+    void guide()
+    {
+        release();
+        for (auto& grain : grains) {
+            const double x = grain.motion.position.x(), v = grain.motion.velocity.x();
+            for (size_t i = 0; i < grain.displacement.size(); i += 2) {
+                grain.displacement[i] -= x / grain.radius;
+                grain.velocity[i] -= v / grain.radius;
+            }
+            Surface<2>& surface = grain.surface;
+            for (size_t i = 0; i < surface.position.size(); i += 2) {
+                surface.position[i] -= x;
+                surface.velocity[i] -= v;
+            }
+            surface.min.x() -= x;
+            surface.max.x() -= x;
+        }
+    }
 
 private:
     std::optional<Assembly<2>> assembly_;
