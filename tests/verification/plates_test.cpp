@@ -110,28 +110,4 @@ TEST(DiscBetweenPlates, ShapeAgreesWithFiniteElements)
     }
 }
 
-// By symmetry a disc pressed on an equal disc has the force of a disc pressed on a plate, and meets it half-way.
-TEST(DiscOnDisc, IsADiscOnAPlate)
-{
-    for (const auto& law : laws) {
-        const Table table(law.file);
-        SqueezeCase c = with(law.material, 276, placings[1]);
-        const Error on_plate = force_error(squeeze(c), table);
-        c.discs = 2;
-        c.speed = 0.2; // for two discs' height
-        const Squeeze run = squeeze(c);
-        const Error error = force_error(run, table);
-        double between = 0;
-        for (const auto& window : run.windows)
-            if (window.squeeze > 0.05) between = std::max(between, std::abs(window.between / window.force - 1));
-        std::printf("%s: force rms %.2f %% (worst %.2f %%) disc on disc, %.2f %% (%.2f %%) disc on plate; force between the discs within "
-                    "%.1e of the plates'; they meet within %.1e R of the middle; deepest %.1e R\n",
-                    law.name, 100 * error.rms, 100 * error.worst, 100 * on_plate.rms, 100 * on_plate.worst, between,
-                    run.off_middle / 1e-3, -run.deepest / 1e-3);
-        EXPECT_LE(error.rms, 0.03) << law.name;
-        EXPECT_LE(between, 0.02) << law.name;
-        EXPECT_LE(run.off_middle, 0.01 * 1e-3) << law.name;
-    }
-}
-
 } // namespace
