@@ -9,6 +9,10 @@ For instance the two materials of the paper together:
     yade -n -x examples/compaction.py --material mr --out mr
     python3 examples/figures.py nh mr --out both
 
+A small picture of a packing before and after, for a page:
+
+    python3 examples/figures.py nh --picture packing.png
+
 The curves of all folders share the figures, figure 1 is of the first folder; without --out the figures go there. Works
 without YADE, hence finds softgrain's file without importing the package, which would ask for YADE.
 """
@@ -20,6 +24,8 @@ import sys
 package = importlib.util.find_spec("softgrain")
 if package is None:
     sys.exit("figures.py: softgrain is not installed for this python3: install it, or set PYTHONPATH to where it lies.")
+if importlib.util.find_spec("matplotlib") is None:
+    sys.exit(f"figures.py: {sys.executable} has no matplotlib: use /usr/bin/python3 with the package python3-matplotlib.")
 folder = package.submodule_search_locations[0]
 sys.path.insert(0, folder)
 runpy.run_path(os.path.join(folder, "figures.py"), run_name="__main__")

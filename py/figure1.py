@@ -14,12 +14,13 @@ DOT = 1.0           # width of a dot [spacing of the points of its grain]
 GRAIN, EDGE, BOX = "0.93", "0.15", "0.1"
 
 
-def draw_snapshots(folder):
-    """The figure from snapshot_start.npz, _jamming, _end in the folder, those that are there; None without any."""
+def draw_snapshots(folder, moments=MOMENTS):
+    """The figure from snapshot_start.npz, _jamming, _end in the folder, those that are there; None without any.
+    moments: which, as (name, title)."""
     import matplotlib.pyplot as plt
     from matplotlib.colors import PowerNorm
 
-    taken = [(title, os.path.join(folder, f"snapshot_{name}.npz")) for name, title in MOMENTS]
+    taken = [(title, os.path.join(folder, f"snapshot_{name}.npz")) for name, title in moments]
     taken = [(title, dict(numpy.load(path))) for title, path in taken if os.path.exists(path)]
     if not taken:
         return None

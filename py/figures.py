@@ -4,6 +4,7 @@
 Needs numpy and matplotlib, not YADE: python3 figures.py DIR [DIR ...] [--out DIR] draws the curves of all folders
 together; figure 1 is of the first. Inside the package: softgrain.figures.draw(folders, out)."""
 import argparse
+import io
 import json
 import os
 import sys
@@ -77,6 +78,22 @@ def draw(folders, out):
             plt.close(drawn)
             written.append(path)
     return written
+
+
+def draw_picture(folder, path):
+    """Writes figure 1 without jamming, small, for a page that shows what this is about. Raises ValueError, one
+    sentence, for a folder without snapshots."""
+    from PIL import Image       # comes with matplotlib
+
+    with plt.rc_context({**STYLE, "savefig.dpi": 110}):
+        drawn = draw_snapshots(folder, moments=(("start", "before"), ("end", "after")))
+        if drawn is None:
+            raise ValueError(f"{folder} holds no snapshots: give the folder of a finished run of compaction.py.")
+        content = io.BytesIO()
+        drawn.savefig(content, format="png")
+        plt.close(drawn)
+    Image.open(content).convert("RGB").quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(
+        path, format="png", optimize=True)      # a third of the size
 
 
 def _volume_change(curves):
@@ -198,9 +215,15 @@ def main():
                                                  "folders together, figure 1 of the first.")
     parser.add_argument("folders", nargs="+", metavar="DIR", help="folder of a run")
     parser.add_argument("--out", default=None, metavar="DIR", help="folder for the figures; default: the first DIR")
+    parser.add_argument("--picture", default=None, metavar="FILE",
+                        help="instead of the figures: the packing of the first DIR before and after, in one png file")
     options = parser.parse_args()
     out = options.out or options.folders[0]
     try:
+        if options.picture:
+            draw_picture(options.folders[0], options.picture)
+            print(options.picture)
+            return 0
         os.makedirs(out, exist_ok=True)
         print("\n".join(draw(options.folders, out)))
     except (OSError, ValueError) as error:

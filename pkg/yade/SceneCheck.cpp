@@ -16,15 +16,21 @@ namespace yade {
 void requireSoftEngines(const Scene& scene)
 {
     std::set<std::string> needed;
+    std::vector<std::string> walls; // what is wrong with them
     for (const auto& body : *scene.bodies) {
         if (softStateOf(*body)) needed.insert({ "Ig2_SoftGrain_SoftGrain_SoftGeom", "Ip2_SoftMat_SoftMat_SoftPhys" });
         const auto* wall = dynamic_cast<const Wall*>(body->shape.get());
         const bool box   = dynamic_cast<const Box*>(body->shape.get()) != nullptr;
+        if ((wall || box) && !dynamic_cast<const FrictMat*>(body->material.get()))
+            walls.push_back(
+                    "body #" + std::to_string(body->id) + ", a " + body->shape->getClassName() + (body->material ? " of " + body->material->getClassName() : " without material")
+                    + ", has no friction with soft grains; give it a FrictMat.");
         if (wall && wall->axis < 2) needed.insert("Ig2_Wall_SoftGrain_SoftGeom");
         if (box) needed.insert("Ig2_Box_SoftGrain_SoftGeom");
         if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get())) needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
     }
     if (needed.count("Ip2_SoftMat_SoftMat_SoftPhys") == 0) return; // no soft grains
+    if (!walls.empty()) throw std::runtime_error(walls.front());
     needed.insert("Law2_SoftGeom_SoftPhys_ContactDynamics");
 
     int integrators = 0, loops = 0;

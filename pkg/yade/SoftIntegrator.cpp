@@ -129,8 +129,9 @@ void SoftIntegrator::adopt()
     for (const auto& body : *scene->bodies) {
         SoftState* state = softStateOf(*body);
         if (!state) continue;
-        fresh_ |= !state->prepared() || scene->iter == body->iterBorn;
         state->prepare(*body);
+        fresh_ |= state->justPlaced;
+        state->justPlaced = false;
         if (body->clumpId >= 0)
             throw std::runtime_error("soft grain #" + std::to_string(body->id) + ": it belongs to a clump, and clumps are rigid; release it from the clump.");
         if (!body->bound)
@@ -144,6 +145,13 @@ void SoftIntegrator::adopt()
         grains.push_back(&state->grain);
     }
     if (grains.empty()) return;
+    for (const auto& body : *scene->bodies) {
+        const std::string kind = body->shape ? body->shape->getClassName() : "";
+        if ((kind == "Wall" || kind == "Box") && !body->bound)
+            throw std::runtime_error(
+                    "body #" + std::to_string(body->id) + ", a " + kind + ", has no bounding box, so grains would pass through it; put Bo1_" + kind
+                    + "_Aabb() into InsertionSortCollider.");
+    }
     assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
     problem_  = {};
     pairs_.clear();

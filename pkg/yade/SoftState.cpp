@@ -69,6 +69,7 @@ void SoftState::prepare(const Body& body)
         fresh.place(origin, ori.toRotationMatrix().topLeftCorner<2, 2>(), vel.head<2>(), spin);
         refPos = pos;
         refOri = ori;
+        justPlaced = true;
     } else {
         const size_t expected = 2 * size_t(fresh.mesh->master_count);
         if (format != 1 || nodeDisplacement.size() != expected || nodeVelocity.size() != expected)

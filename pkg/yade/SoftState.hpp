@@ -10,6 +10,7 @@ namespace yade {
 class SoftState : public State {
 public:
     softgrain::Grain<2> grain;
+    bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
 
     /// Sets the grain up from its body, at first from the placement and velocities, after loading from the saved
     /// fields; once done costs nothing. Throws softgrain::UserError.

@@ -2,6 +2,7 @@
 """Bad options of the examples: one sentence on stderr, exit code 2, no traceback; nothing is overwritten."""
 import contextlib
 import io
+import json
 import os
 import runpy
 import sys
@@ -10,6 +11,9 @@ from yade import O
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import EXAMPLES, Folder, is_sentence, run_tests  # noqa: E402
+from softgrain.records import read_table  # noqa: E402
+
+SMALL = ["--grains", "10", "--points", "60"]
 
 # example, options, words that the sentence has to hold
 BAD = [
@@ -32,7 +36,18 @@ BAD = [
     ("compaction", ["--formulation", "updated"], ["updated", "not there yet"]),
     ("compaction", ["--threads", "0"], ["--threads", "0"]),
     ("compaction", ["--out", "/proc/nowhere"], ["/proc/nowhere", "--out"]),
+    ("compaction", ["--threads", "9999"], ["--threads", "9999", "cores"]),
+    ("compaction", ["--out", ""], ["--out", "empty"]),
+    ("compaction", ["--out", "/dev/null"], ["/dev/null", "--out"]),
     ("compaction", ["surplus"], ["surplus"]),
+    # what the engines find in the first step
+    ("compaction", [*SMALL, "--lambda", "-5e6"], ["lambda", "-5e+06", "grains"]),
+    ("compaction", [*SMALL, "--material", "mr", "--c2", "-0.5e6"], ["c2", "grains"]),
+    ("compaction", [*SMALL, "--dt", "1e-3"], ["0.001", "largest stable"]),
+    ("compaction", [*SMALL, "--speed", "50"], ["--speed", "50", "steps"]),
+    ("squeeze", ["--points", "60", "--speed", "50"], ["--speed", "50", "steps"]),
+    ("squeeze", ["--points", "1000000"], ["points", "1000000", "100000"]),
+    ("rigid_compaction", ["--grains", "10", "--dt", "1"], ["--dt", "1", "stable"]),
     ("squeeze", ["--walls", "3"], ["--walls", "3"]),
     ("squeeze", ["--radius", "0"], ["--radius", "0"]),
     ("squeeze", ["--squeeze", "0.95"], ["--squeeze", "0.95"]),
@@ -70,8 +85,7 @@ def bad_options_are_refused(checks):
             missing = [word for word in words if word not in err]
             checks.that(f"{name}: one sentence", is_sentence(err.strip()) and not missing,
                         f"said {err!r}, lacks {missing}")
-        summary = os.path.join(folder, "bad", "summary.json")
-        checks.that("nothing is left that looks like a finished run", not os.path.exists(summary))
+        checks.that("nothing is left", os.listdir(os.path.join(folder, "bad")) == [])
 
 
 def help_is_there(checks):
@@ -102,4 +116,60 @@ def a_finished_run_is_not_overwritten(checks):
             checks.that("--force overwrites", code == 0 and file.read() != before, err)
 
 
-run_tests(bad_options_are_refused, help_is_there, a_finished_run_is_not_overwritten)
+def a_finished_run_survives_bad_options(checks):
+    with Folder() as folder:
+        out = os.path.join(folder, "run")
+        common = ["--out", out, *SMALL, "--until", "0.66"]
+        code, _, err = run_inside("compaction", common)
+        checks.that("a small run", code == 0, err)
+        before = sorted(os.listdir(out))
+        code, _, err = run_inside("compaction", [*common, "--force", "--lambda", "-5e6"])
+        checks.that("is not lost to --force with a bad value", code == 2 and sorted(os.listdir(out)) == before, err)
+
+
+def spoiled_checkpoints_are_refused(checks):
+    with Folder() as folder:
+        out = os.path.join(folder, "run")
+        code, _, err = run_inside("compaction", ["--out", out, *SMALL, "--until", "0.66"])
+        checks.that("a small run", code == 0, err)
+        with open(os.path.join(out, "checkpoint.json"), encoding="utf-8") as file:
+            good = json.load(file)
+        scene = os.path.join(out, good["scene"])
+
+        def spoiled(what, words, file, content):
+            with open(file, "wb") as opened:
+                opened.write(content)
+            code, _, err = run_inside("compaction", ["--out", out, "--resume", "--until", "0.7"])
+            missing = [word for word in words if word not in err]
+            checks.that(what, code == 2 and is_sentence(err.strip()) and not missing, f"{code}: {err!r}, lacks {missing}")
+
+        def note(**changed):
+            return json.dumps({**good, **changed}).encode()
+
+        stored = os.path.join(out, "checkpoint.json")
+        spoiled("of another softgrain", ["9.9", "version"], stored, note(versions={**good["versions"], "softgrain": "9.9"}))
+        spoiled("no json", ["checkpoint.json", "--force"], stored, b"{")
+        spoiled("a list", ["checkpoint.json", "--force"], stored, b"[]")
+        spoiled("a scene that is not there", ["nowhere.yade", "--force"], stored, note(scene="nowhere.yade"))
+        spoiled("more rows than the csv", ["compaction.csv", "1000", "--force"], stored, note(rows=1000))
+        with open(stored, "wb") as file:
+            file.write(note())
+        spoiled("a scene that is none", [good["scene"], "--force"], scene, b"garbage")
+
+
+def a_run_that_breaks_down_leaves_its_rows(checks):
+    """Squeezed until a point turns inside out."""
+    with Folder() as folder:
+        out = os.path.join(folder, "run")
+        code, text, err = run_inside("compaction", ["--out", out, *SMALL, "--until", "2"])
+        words = ["step", "soft grain #", "point", "turned inside out", "likely causes"]
+        missing = [word for word in words if word not in err]
+        checks.that("exit code 1 and one sentence", code == 1 and is_sentence(err.strip()) and not missing,
+                    f"{code}: {err!r}, lacks {missing}")
+        rows = len(read_table(os.path.join(out, "compaction.csv"))["strain"])
+        checks.that("the rows before are there, and it says so", rows > 200 and f"{rows} rows" in text, text[-200:])
+        checks.that("no summary", not os.path.exists(os.path.join(out, "summary.json")))
+
+
+run_tests(bad_options_are_refused, help_is_there, a_finished_run_is_not_overwritten,
+          a_finished_run_survives_bad_options, spoiled_checkpoints_are_refused, a_run_that_breaks_down_leaves_its_rows)

@@ -52,7 +52,7 @@ inline Squeeze squeeze(const SqueezeCase& c)
         const double before = squeeze_now();
         world.step(dt);
         // two discs on each other are unstable: without friction one slides off the other, at a rate of sqrt(F / m R)
-        if (c.discs > 1 && world.steps % 20 == 0) world.guide();
+        if (c.discs > 1 && world.steps % 5 == 0) world.guide();
         force += (world.plane_force[1].y() - world.plane_force[0].y()) / 2;
         place += (before + squeeze_now()) / 2;
         for (const auto& contact : world.problem.contacts)
