@@ -125,7 +125,7 @@ def softBox(width, height, material=-1):
             wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
 
 
-def softEngines(gravity=(0, 0, 0), dt=None, safety=0.6, tolerance=1e-3, maxSweeps=1000, verletDist=None,
+def softEngines(gravity=(0, 0, 0), dt=None, safety=0.8, tolerance=1e-3, maxSweeps=1000, verletDist=None,
                 friction=None, wallFriction=None, more=()):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
@@ -142,7 +142,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=0.6, tolerance=1e-3, maxSweep
     tolerance = positive("softEngines: tolerance", tolerance)
     safety = positive("softEngines: safety", safety)
     if safety >= 1:
-        raise InputError(f"softEngines: safety is {safety:g}: give less than 1; 0.6 is sound.")
+        raise InputError(f"softEngines: safety is {safety:g}: give less than 1; 0.8 is sound.")
     maxSweeps = whole("softEngines: maxSweeps", maxSweeps, 1)
     if dt is None:
         steppers = [wrapper.SoftTimeStepper(safety=safety)]

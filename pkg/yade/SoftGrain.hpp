@@ -37,7 +37,7 @@ public:
                     (Real, surfaceSpacing, 0.9, Attr::triggerPostLoad, "Largest distance between surface points [width of a grid cell]."))(
                     (Real,
                      nodeThreshold,
-                     0.02,
+                     0.08,
                      Attr::triggerPostLoad,
                      "Grid nodes lighter than this follow their neighbours [mass of a full cell]."))(
                     (Vector2r, gridOffset, Vector2r::Zero(), Attr::triggerPostLoad, "Shift of the grid under the grain [width of a grid cell].")),

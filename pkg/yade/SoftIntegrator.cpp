@@ -98,6 +98,7 @@ void SoftIntegrator::advance(double dt)
     requestCollider();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
+        refuseLeaks();
         evaluate();
     }
     if (scene->trackEnergy) trackEnergies();
@@ -277,7 +278,7 @@ void SoftIntegrator::refuseOverlaps() const
             const auto& first         = pair.first->grain.surface;
             const auto &larger        = first.size > second.size ? first : second, &smaller = first.size > second.size ? second : first;
             const auto middle         = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;
-            const Real inside         = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle)).gap;
+            const Real inside         = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle), 0.5).gap;
             if (inside > 0) depth = std::max(depth, inside + smaller.size);
         }
         if (depth > 1e-3 * second.size)
@@ -285,6 +286,19 @@ void SoftIntegrator::refuseOverlaps() const
                     "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by " + softgrain::shown(depth)
                     + " m at the start; move them apart or make them smaller.");
     }
+}
+
+/// Surface points that got past each other: the answer is worth nothing from here on.
+void SoftIntegrator::refuseLeaks() const
+{
+    constexpr Real most = 0.1; // of the radius
+    for (const Pair& pair : pairs_)
+        for (const auto& point : pair.geom->points())
+            if (-point.gap > most * pair.size())
+                throw softgrain::SimulationError(
+                        "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
+                        + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
+                        + " radii; likely causes: grains pressed beyond what their resolution can follow, or an impact near the wave speed.");
 }
 
 /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
@@ -302,7 +316,7 @@ void SoftIntegrator::deliver(double dt)
             for (int d = 0; d < 2; ++d) {
                 body.impulse[2 * contact.point + d] += contact.impulse[d];
                 if (contact.other >= 0)
-                    for (int k = 0; k < 2; ++k)
+                    for (int k = 0; k < softgrain::face_vertices<2>; ++k)
                         problem_.bodies[contact.other]->impulse[2 * contact.vertex[k] + d] -= contact.weight[k] * contact.impulse[d];
             }
             // on body id2
@@ -351,7 +365,7 @@ void SoftIntegrator::evaluate()
         if (softStateOf(*body) && !body->bound) return; // the first step has still to come
     adopt();
     if (!assembly_) return;
-    assembly_->evaluate_energy(scene->dt, threads());
+    assembly_->evaluate_stretch(threads());
     criticalStep = std::numeric_limits<Real>::max();
     for (SoftState* state : states_)
         criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));
@@ -359,7 +373,6 @@ void SoftIntegrator::evaluate()
 
 void SoftIntegrator::trackEnergies()
 {
-    evaluate();
     auto& energy = *scene->energy;
     energy.set(elasticEnergy(), "softElastic", elasticId_);
     energy.set(kineticEnergy(), "softKinetic", kineticId_);
@@ -371,6 +384,8 @@ void SoftIntegrator::trackEnergies()
 Real SoftIntegrator::elasticEnergy()
 {
     evaluate();
+    if (!assembly_) return 0;
+    assembly_->evaluate_energy(scene->dt, threads());
     Real sum = 0;
     for (const SoftState* state : states_)
         sum += state->grain.elastic;
@@ -405,10 +420,8 @@ Real SoftIntegrator::maxPenetration() const
 {
     Real deepest = 0;
     for (const Pair& pair : pairs_) {
-        Real size = pair.second->grain.surface.size;
-        if (pair.first) size = std::min(size, pair.first->grain.surface.size);
         for (const auto& point : pair.geom->points())
-            deepest = std::max(deepest, -point.gap / size);
+            deepest = std::max(deepest, -point.gap / pair.size());
     }
     return deepest;
 }

@@ -84,6 +84,8 @@ private:
         SoftState* second;
         const State* rigid;
         int body1, body2; ///< places in the contact problem; body1 -1: a plane
+        /// Radius of the smaller grain.
+        Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
     };
     void adopt();
     void advance(double dt);
@@ -93,6 +95,7 @@ private:
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;
+    void refuseLeaks() const;
     void deliver(double dt);
     void requestCollider() const;
     void trackEnergies();

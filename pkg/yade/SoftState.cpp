@@ -83,7 +83,6 @@ void SoftState::prepare(const Body& body)
         fresh.refresh();
         fresh.elastic_energy();
         fresh.surface.travel = travel;
-        if (outlineRise.size() == fresh.surface.rise.size()) fresh.surface.rise = outlineRise;
     }
     grain   = fresh;
     mass    = grain.mass();
@@ -119,7 +118,6 @@ void SoftState::preSave(SoftState&)
     grain.pull();
     nodeDisplacement = grain.displacement;
     nodeVelocity     = grain.velocity;
-    outlineRise      = grain.surface.rise;
     travel           = grain.surface.travel;
 }
 

@@ -40,7 +40,6 @@ public:
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(
-                    (vector<Real>, outlineRise, , Attr::hidden, "Slopes of the smoothed outline, [surface segment] [-]."))(
                     (Real, travel, 0, Attr::hidden, "Bound on the path of any surface point since the start [m]."))(
                     (int, format, 1, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),

@@ -18,7 +18,7 @@ public:
             TimeStepper,
             "Keeps O.dt at safety times the largest stable step of the soft grains, 2/ω of their stiffest mode, which shrinks with the smallest "
             "stretch as they are squeezed.",
-            ((Real, safety, 0.6, , "Fraction of the stable step [-]; from 0.9 on steps may turn unstable as grains deform.")),
+            ((Real, safety, 0.8, , "Fraction of the stable step [-]; beyond 0.9 steps may turn unstable as grains deform.")),
             timeStepUpdateInterval = 50;);
 };
 REGISTER_SERIALIZABLE(SoftTimeStepper);

@@ -43,8 +43,8 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         if (corners_only && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
-        const Projection at = project(other, x, nearest_segment(other, x));
-        if (at.gap < margin) found.push_back({ p, at.segment, 0 });
+        const Projection at = project(other, x, nearest_segment(other, x), 0.5);
+        if (at.gap < margin) found.push_back({ p, at.segment, at.t, 0 });
     }
 }
 
@@ -69,12 +69,13 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
         const Surface<Dim>&mine = on_second ? second : first, &other = on_second ? first : second;
         for (Candidate& candidate : memory.near[mine_small ? 0 : 1]) {
             if (travel + near < candidate.clear_until) continue;
-            const Projection at = project(other, mine.x(candidate.point), candidate.face);
+            const Projection at = project(other, mine.x(candidate.point), candidate.face, candidate.place);
             candidate.face = at.segment;
+            candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
             if (at.gap >= near) continue;
             fresh.push_back({ candidate.point, on_second, at.segment,
-                              { at.segment, (at.segment + 1) % other.count }, { 1 - at.t, at.t }, at.normal, at.gap });
+                              at.vertex, at.weight, at.normal, at.gap });
         }
     }
     carry_forces(points, fresh);

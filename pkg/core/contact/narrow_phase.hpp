@@ -16,8 +16,8 @@ template <int Dim> struct ContactPoint {
     int point;        ///< surface point
     bool on_second;   ///< the point belongs to the pair's second body, the face to the first
     int face;         ///< segment (2D) of the other body
-    std::array<int, Dim> vertex;    ///< of the face
-    std::array<double, Dim> weight; ///< of the vertices at the foot of the point
+    std::array<int, face_vertices<Dim>> vertex;    ///< that the face follows
+    std::array<double, face_vertices<Dim>> weight; ///< of the vertices at the foot of the point, sum 1
     Vec<Dim> normal;  ///< from the face to the point, unit
     double gap;       ///< [m], negative: penetration
     Vec<Dim> force = Vec<Dim>::Zero(); ///< [N] (N/m in 2D) of the last step: where the solver starts
@@ -38,6 +38,7 @@ public:
 
     struct Candidate {
         int point, face;
+        double place;       ///< of the last foot on the face, 0 to 1
         double clear_until; ///< total travel of both bodies up to which the point is out of touch by its last gap [m]
     };
     /// What the next update starts from besides `points`: the points of the smaller body and the corners of the larger

@@ -7,60 +7,62 @@
 namespace softgrain {
 namespace {
 
-    double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
     /// Turned by -90 degrees: outward from a counter-clockwise boundary.
     Vec<2> outward(const Vec<2>& along) { return Vec<2>(along.y(), -along.x()); }
 
-    /// One segment with the parabola over it.
+    /// The cubic over one segment.
     struct Segment {
-        Vec<2> start, chord;
-        Vec<2> normal_start, normal_end; ///< of the parabola, as long as the chord or so
-        double rise;
+        std::array<int, 4> vertex; ///< the one before, the two ends, the one after
+        std::array<double, 4> start {}, end {}; ///< weights of the vertices in the tangents at the ends
+        Vec<2> x[4];
+        Vec<2> a, b, c; ///< x(t) = x[1] + c t + b t^2 + a t^3
 
         Segment(const Surface<2>& polyline, int index)
-            : start(polyline.x(index))
-            , chord(polyline.x(index + 1 == polyline.count ? 0 : index + 1) - start)
-            , normal_start(outward(chord) - polyline.rise[index] * chord)
-            , normal_end(outward(chord) + polyline.rise[index] * chord)
-            , rise(polyline.rise[index])
         {
+            const int n = polyline.count;
+            const int next = index + 1 == n ? 0 : index + 1;
+            vertex = { index == 0 ? n - 1 : index - 1, index, next, next + 1 == n ? 0 : next + 1 };
+            for (int k = 0; k < 4; ++k)
+                x[k] = polyline.x(vertex[k]);
+            const bool sharp_start = polyline.corner[index], sharp_end = polyline.corner[next];
+            start = sharp_start ? (sharp_end ? std::array<double, 4> { 0, -1, 1, 0 } : std::array<double, 4> { 0, -1.5, 2, -0.5 })
+                                : std::array<double, 4> { -0.5, 0, 0.5, 0 };
+            end = sharp_end ? (sharp_start ? std::array<double, 4> { 0, -1, 1, 0 } : std::array<double, 4> { 0.5, -2, 1.5, 0 })
+                            : std::array<double, 4> { 0, -0.5, 0, 0.5 };
+            Vec<2> last = Vec<2>::Zero();
+            c = Vec<2>::Zero();
+            for (int k = 0; k < 4; ++k) {
+                c += start[k] * x[k];
+                last += end[k] * x[k];
+            }
+            const Vec<2> chord = x[2] - x[1];
+            b = 3 * chord - 2 * c - last;
+            a = c + last - 2 * chord;
         }
 
-        /// Root t of cross(x - start - t chord, n(t)) = 0, n linear between the end normals: of the two, the one that
-        /// stays when the segment is straight.
-        double foot(const Vec<2>& x) const
+        Vec<2> at(double t) const { return x[1] + t * (c + t * (b + t * a)); }
+        Vec<2> tangent(double t) const { return c + t * (2 * b + t * 3 * a); }
+        /// A Newton step towards the foot of p, (p - x(t)) . x'(t) = 0.
+        double step(const Vec<2>& p, double t) const
         {
-            const Vec<2> q = x - start, turn = normal_end - normal_start;
-            const double a = cross(q, normal_start), b = cross(q, turn) - cross(chord, normal_start), c = -cross(chord, turn);
-            const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
-            return -2 * a / (b + std::copysign(root, b));
+            const Vec<2> apart = p - at(t), along = tangent(t);
+            const double slope = along.squaredNorm() - apart.dot(2 * b + 6 * t * a);
+            // beyond the centre of curvature the foot is far away; the chord's slope brings it near
+            return apart.dot(along) / std::max(slope, 0.2 * along.squaredNorm());
         }
-        Vec<2> normal(double t) const { return ((1 - t) * normal_start + t * normal_end).normalized(); }
-        double gap(const Vec<2>& x, double t, const Vec<2>& n) const
+        std::array<double, 4> weights(double t) const
         {
-            return n.dot(x - start - t * chord) - rise * chord.norm() * t * (1 - t);
+            const double h10 = t * (1 - t) * (1 - t), h11 = -t * t * (1 - t), h01 = t * t * (3 - 2 * t);
+            std::array<double, 4> weight;
+            for (int k = 0; k < 4; ++k)
+                weight[k] = h10 * start[k] + h11 * end[k];
+            weight[1] += 1 - h01;
+            weight[2] += h01;
+            return weight;
         }
     };
 
 } // namespace
-
-void follow_shape(Surface<2>& polyline, double share)
-{
-    const int n = polyline.count;
-    // tangent of half the turn at a vertex, from the edges before and after it
-    const auto half_turn = [&](int i) {
-        if (polyline.corner[i]) return 0.0;
-        const Vec<2> before = polyline.x(i) - polyline.x(i == 0 ? n - 1 : i - 1), after = polyline.x(i + 1 == n ? 0 : i + 1) - polyline.x(i);
-        return cross(before, after) / ((before.squaredNorm() + after.squaredNorm()) / 2 + before.dot(after));
-    };
-    const double first = half_turn(0);
-    double start = first;
-    for (int i = 0; i < n; ++i) {
-        const double end = i + 1 == n ? first : half_turn(i + 1);
-        polyline.rise[i] += share * ((start + end) / 2 - polyline.rise[i]);
-        start = end;
-    }
-}
 
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
 {
@@ -78,26 +80,38 @@ int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
     return best;
 }
 
-Projection project(const Surface<2>& polyline, const Vec<2>& x, int hint)
+Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, double t)
 {
+    constexpr int most_steps = 20;
+    constexpr double tolerance = 1e-7; // of the place; the gap is off by its square
     const int n = polyline.count;
-    int segment = hint, last_move = 0;
+    int last_move = 0;
     for (int walked = 0; walked <= n; ++walked) {
         const Segment here(polyline, segment);
-        const double t = here.foot(x);
-        const int move = t < 0 ? -1 : t > 1 ? 1 : 0;
-        if (move == 0) {
-            const Vec<2> normal = here.normal(t);
-            return { segment, t, normal, here.gap(x, t, normal) };
+        int move = 0;
+        for (int k = 0; k < most_steps; ++k) {
+            const double step = here.step(x, t);
+            t += step;
+            move = t < 0 ? -1 : t > 1 ? 1 : 0;
+            t = std::clamp(t, 0.0, 1.0);
+            // out of the segment for good when a step from its end leads out again
+            if (move != 0 && (move > 0 ? here.step(x, t) > 0 : here.step(x, t) < 0)) break;
+            move = 0;
+            if (std::abs(step) < tolerance) break;
+        }
+        if (move == 0 || (move * last_move < 0 && !polyline.corner[move < 0 ? segment : (segment + 1) % n])) {
+            const Vec<2> normal = outward(here.tangent(t)).normalized();
+            return { segment, t, here.vertex, here.weights(t), normal, normal.dot(x - here.at(t)) };
         }
         if (move * last_move < 0) break; // between two segments: the vertex of a corner
         last_move = move;
         segment = (segment + move + n) % n;
+        t = move > 0 ? 0 : 1;
     }
     const int vertex = last_move < 0 ? (segment + 1) % n : segment;
     const Segment before(polyline, (vertex + n - 1) % n), after(polyline, vertex);
-    const Vec<2> normal = outward(before.chord.normalized() + after.chord.normalized()).normalized();
-    return { vertex, 0, normal, normal.dot(x - after.start) };
+    const Vec<2> normal = outward(before.tangent(1).normalized() + after.tangent(0).normalized()).normalized();
+    return { vertex, 0, after.vertex, { 0, 1, 0, 0 }, normal, normal.dot(x - after.x[1]) };
 }
 
 } // namespace softgrain

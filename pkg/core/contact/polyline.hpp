@@ -3,28 +3,30 @@
 
 #include "contact/surface.hpp"
 
+#include <array>
+
 namespace softgrain {
 
-/// Where a point stands against a closed polyline.
+/// Where a point stands against the outline that a closed polyline samples.
 struct Projection {
     int segment;     ///< from vertex `segment` to the next one
     double t;        ///< place on the segment, 0 to 1
-    Vec<2> normal;   ///< unit outward normal of the polyline there
-    double gap;      ///< distance along the normal to the smoothed boundary, negative inside [m]
+    std::array<int, 4> vertex;    ///< that the foot follows, and
+    std::array<double, 4> weight; ///< their weights, sum 1
+    Vec<2> normal;   ///< unit outward normal of the outline there
+    double gap;      ///< distance from the outline, negative inside [m]
 };
 
-/// Projects x on the outline, a parabola over each segment that rises from its ends with the slopes -+`rise`. The
-/// normal n(t) is that of the parabola and the foot (1 - t) a + t b lies on it under the point, so that the gap
-/// changes by n . dx as the point moves, and a normal contact force makes no couple. A sampled circle of radius R
-/// keeps its radius to R (angle step)^4 / 128. Between two segments, at a corner, the vertex is the foot.
+/// Projects x on the outline through the vertices: over each segment a cubic with the tangents (x_{i+1} - x_{i-1}) / 2
+/// at its ends (Catmull and Rom 1974); at a corner the tangent that makes it a parabola, between two corners a straight
+/// line. It has a continuous normal but at corners, and lies within 9/384 R (angle step)^4 of a sampled circle.
 ///
-/// Walks from segment `hint` to the segment that holds the foot: the nearest one from any near start.
-Projection project(const Surface<2>& polyline, const Vec<2>& x, int hint);
-
-/// Lets the rises follow the shape: each moves by `share` of its distance to the present value, the mean turn of
-/// the polyline at the segment's ends. Following slowly, they do not take part in vibrations of the surface, and the
-/// gap changes as the foot and the point move: the contact law acts on just that.
-void follow_shape(Surface<2>& polyline, double share);
+/// The foot follows the vertices: foot = sum of weight x vertex. As the normal is the outline's, the gap changes by
+/// n . (dx - sum of weight x d vertex) to first order, and a normal contact force makes no couple.
+///
+/// Starts from the place t on segment `segment` and walks to the foot: the nearest one from any near start. Where
+/// there is none, at a convex corner, the vertex is the foot.
+Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, double t);
 
 /// The segment nearest to x, by looking at all of them.
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x);

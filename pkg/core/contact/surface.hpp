@@ -7,6 +7,9 @@
 
 namespace softgrain {
 
+/// Surface points that a place on the boundary follows: in 2D the ends of its segment and one beyond each.
+template <int Dim> constexpr int face_vertices = Dim == 2 ? 4 : 3;
+
 /// The boundary of a body as contact sees it, in world coordinates. A soft grain fills it every step from its
 /// grid; a rigid polygon from its motion.
 template <int Dim> struct Surface {
@@ -16,7 +19,6 @@ template <int Dim> struct Surface {
     std::vector<double> velocity_before; ///< [point][Dim] [m/s], at the start of the step
     std::vector<double> impulse;         ///< [point][Dim] [N s], what contact gave in this step
     std::vector<char> corner;            ///< [point], see BoundaryPoint
-    std::vector<double> rise;            ///< [segment], slope of the smoothed boundary against the segment at its ends
     Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
     double speed = 0;                    ///< largest speed of a point [m/s]
     double travel = 0;                   ///< bound on the path of any point since the start [m]
@@ -30,7 +32,6 @@ template <int Dim> struct Surface {
         for (auto* field : { &position, &velocity, &velocity_before, &impulse })
             field->assign(size_t(Dim) * points, 0);
         corner.assign(points, 0);
-        rise.assign(points, 0);
     }
     Eigen::Map<const Vec<Dim>> x(int point) const { return Eigen::Map<const Vec<Dim>>(&position[size_t(Dim) * point]); }
     Eigen::Map<Vec<Dim>> v(int point) { return Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * point]); }

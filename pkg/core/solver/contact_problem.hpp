@@ -14,8 +14,8 @@ template <int Dim> struct Contact {
     int body;            ///< that the point is on, place in ContactProblem::bodies
     int other;           ///< that the face is on; -1: a rigid plane
     int point;
-    std::array<int, Dim> vertex;    ///< of the face
-    std::array<double, Dim> weight; ///< of the vertices, sum 1
+    std::array<int, face_vertices<Dim>> vertex;    ///< that the face follows
+    std::array<double, face_vertices<Dim>> weight; ///< of the vertices, sum 1
     Vec<Dim> normal;     ///< from the face to the point
     double gap_speed;    ///< gap / dt [m/s]
     Vec<Dim> drive;      ///< velocity of the rigid plane [m/s]
@@ -37,7 +37,7 @@ template <int Dim> struct ContactProblem {
         };
         Vec<Dim> u = value(contact.body, contact.point);
         if (contact.other < 0) return u - contact.drive;
-        for (int k = 0; k < Dim; ++k)
+        for (int k = 0; k < face_vertices<Dim>; ++k)
             u -= contact.weight[k] * value(contact.other, contact.vertex[k]);
         return u;
     }

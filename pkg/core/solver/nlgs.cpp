@@ -38,9 +38,9 @@ namespace {
     /// A contact as the sweeps need it, short, so that all of them stay in cache. Velocities of all bodies stand
     /// in one array.
     template <int Dim> struct Local {
-        int point, vertex[Dim];      ///< places in the array of velocities; a rigid plane has no vertices
+        int point, vertex[face_vertices<Dim>]; ///< places in the array of velocities; a rigid plane has no vertices
         int body, other;
-        double weight[Dim];
+        double weight[face_vertices<Dim>];
         Vec<Dim> normal, offset;     ///< offset: gap speed along the normal, less the drive of a rigid plane
         Vec<Dim> impulse;
         Contact<Dim>* contact;
@@ -167,7 +167,7 @@ namespace {
             local.body = contact.body;
             local.other = contact.other;
             local.point = bodies_[contact.body].first + contact.point;
-            for (int k = 0; k < Dim; ++k) {
+            for (int k = 0; k < face_vertices<Dim>; ++k) {
                 local.vertex[k] = contact.other < 0 ? 0 : bodies_[contact.other].first + contact.vertex[k];
                 local.weight[k] = contact.other < 0 ? 0 : contact.weight[k];
             }
@@ -189,7 +189,7 @@ namespace {
             Vec<Dim> u;
             for (int d = 0; d < Dim; ++d) {
                 u[d] = local.offset[d] + v[Dim * local.point + d];
-                for (int k = 0; k < Dim; ++k)
+                for (int k = 0; k < face_vertices<Dim>; ++k)
                     u[d] -= local.weight[k] * v[Dim * local.vertex[k] + d];
             }
             return u;
@@ -221,7 +221,7 @@ namespace {
         {
             push(bodies_[local.body], local.point, impulse);
             if (local.other < 0) return;
-            for (int k = 0; k < Dim; ++k)
+            for (int k = 0; k < face_vertices<Dim>; ++k)
                 push(bodies_[local.other], local.vertex[k], -local.weight[k] * impulse);
         }
 
@@ -231,7 +231,7 @@ namespace {
             double sum = body.mobility > 0 ? body.mobility * body.mesh->delassus_diagonal[local.point - body.first] : 0;
             if (local.other < 0 || bodies_[local.other].mobility == 0) return sum;
             const Body& other = bodies_[local.other];
-            for (int k = 0; k < Dim; ++k) {
+            for (int k = 0; k < face_vertices<Dim>; ++k) {
                 const int row = local.vertex[k] - other.first;
                 sum += other.mobility * local.weight[k] * local.weight[k] * other.mesh->delassus_diagonal[row];
                 for (int l = 0; l < k; ++l)

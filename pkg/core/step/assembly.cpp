@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/assembly.hpp"
 
-#include "contact/polyline.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,9 +8,6 @@
 
 namespace softgrain {
 namespace {
-
-    /// How fast the smoothed outline follows the surface: over some fifty steps, a few periods of its vibrations.
-    constexpr double shape_share = 0.02;
 
     std::string whose(int id) { return "soft grain #" + std::to_string(id); }
 
@@ -150,7 +145,6 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
             surface.max = hi;
             surface.speed = std::sqrt(speed2);
             surface.travel += dt * surface.speed;
-            follow_shape(surface, shape_share);
             grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
         }
     }
@@ -177,10 +171,22 @@ template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& proble
         balance.friction -= contact.impulse.dot(u) - normal;
         if (contact.other < 0) balance.external_work += contact.impulse.dot(contact.drive);
         else if (Surface<Dim>& other = *problem.bodies[contact.other]; other.mobility == 0)
-            for (int k = 0; k < Dim; ++k)
+            for (int k = 0; k < face_vertices<Dim>; ++k)
                 balance.external_work += contact.weight[k] * contact.impulse.dot(other.v(contact.vertex[k]));
         if (Surface<Dim>& body = *problem.bodies[contact.body]; body.mobility == 0)
             balance.external_work -= contact.impulse.dot(body.v(contact.point));
+    }
+}
+
+template <int Dim> void Assembly<Dim>::evaluate_stretch(int threads)
+{
+    const int count = int(batches_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int b = 0; b < count; ++b) {
+        Batch<Dim>& batch = *batches_[b];
+        batch.law.energy[batch.wide()](batch.data(), batch.per_lane.data() + batch.lanes, batch.per_lane.data());
+        for (size_t lane = 0; lane < members_[b].size(); ++lane)
+            members_[b][lane]->min_stretch = batch.per_lane[lane];
     }
 }
 
@@ -193,13 +199,14 @@ template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
         KernelData<Dim> data = batch.data();
         std::copy(batch.displacement.begin(), batch.displacement.end(), data.force);
         data.displacement = data.force;
-        motion_kernels<Dim>().drift[batch.wide()](data, -dt / 2);
-        motion_kernels<Dim>().extend[batch.wide()](data);
-        batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + batch.lanes);
-        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
-            Grain<Dim>& grain = *members_[b][lane];
-            grain.elastic = std::pow(grain.radius, Dim) * batch.per_lane[lane];
-            grain.min_stretch = batch.per_lane[batch.lanes + lane];
+        for (Grain<Dim>* grain : members_[b])
+            grain->elastic = 0;
+        for (double share : { -0.5, 2.0, -0.5 }) { // at the end of the step, in its middle, at its start
+            motion_kernels<Dim>().extend[batch.wide()](data);
+            batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + batch.lanes);
+            for (size_t lane = 0; lane < members_[b].size(); ++lane)
+                members_[b][lane]->elastic += share * std::pow(members_[b][lane]->radius, Dim) * batch.per_lane[lane];
+            motion_kernels<Dim>().drift[batch.wide()](data, -dt / 2);
         }
     }
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/grain.hpp"
 
-#include "contact/polyline.hpp"
-
 #include <cmath>
 
 namespace softgrain {
@@ -100,7 +98,6 @@ template <int Dim> void Grain<Dim>::refresh()
             surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface()[size_t(Dim) * p + d];
     }
     surface.bound();
-    follow_shape(surface, 1);
 }
 
 template <int Dim> void Grain<Dim>::pull()

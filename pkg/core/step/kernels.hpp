@@ -235,7 +235,7 @@ template <int Dim, class T, int L> SOFTGRAIN_INLINE void interpolate(const Kerne
 /// keeps their J near the mean of the region. Full cells need none.
 template <int Dim> SOFTGRAIN_INLINE double stabilisation(const typename Discretisation<Dim>::Region& region)
 {
-    return region.full ? 0 : 0.1;
+    return region.full ? 0 : 0.3;
 }
 
 /// f_i = - sum_p V_p P_p grad N_i (Vu et al. 2017, eq. 6, in the reference configuration) with the mean dilatation
@@ -294,16 +294,16 @@ template <int Dim, class Law> struct Energy {
             const auto& region = data.regions[r];
             Tensor<Dim, T> F[points];
             deform<Dim, L>(data, region, F);
-            T mean {}, squares {};
+            T J[points], mean {}, spread {};
             for (int q = 0; q < points; ++q) {
-                const T J = determinant(F[q]);
-                mean += J;
-                squares += J * J;
+                J[q] = determinant(F[q]);
+                mean += J[q];
                 smallest = smaller(smallest_stretch(F[q]), smallest);
                 sum += region.volume / points * Law::template energy<Dim, T>(p, F[q]);
             }
             mean *= 1.0 / points;
-            const T spread = squares * (1.0 / points) - mean * mean;
+            for (int q = 0; q < points; ++q)
+                spread += (J[q] - mean) * (J[q] - mean) * (1.0 / points);
             sum += region.volume
                 * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Dim>(region) * Law::volumetric_modulus(p) * spread);
         }

@@ -20,7 +20,6 @@ inline Surface<2> surface_of(const std::vector<Vec<2>>& vertices)
     surface.bound();
     surface.size = 0.5 * (surface.max - surface.min).minCoeff();
     surface.mobility = 1;
-    follow_shape(surface, 1);
     return surface;
 }
 
@@ -35,7 +34,6 @@ inline Surface<2> surface_of(const Outline<2>& outline, double spacing, double r
     for (int i = 0; i < surface.count; ++i)
         surface.corner[i] = points[i].corner;
     surface.size = radius;
-    follow_shape(surface, 1);
     return surface;
 }
 
@@ -58,18 +56,35 @@ inline void move(Surface<2>& surface, const Vec<2>& shift, double angle, double 
 
 inline double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The smoothed boundary, finely: over each segment the parabola that leaves its ends with the slopes -+rise.
+/// The outline through the vertices, finely: cubic over each segment, its tangents the mean of the chords at either end;
+/// at a corner the tangent with which the third derivative vanishes.
 inline std::vector<Vec<2>> smoothed(const Surface<2>& surface, int pieces)
 {
+    const int n = surface.count;
+    const auto x = [&](int i) { return Vec<2>(surface.x((i + n) % n)); };
+    const auto sharp = [&](int i) { return bool(surface.corner[(i + n) % n]); };
     std::vector<Vec<2>> curve;
-    for (int i = 0; i < surface.count; ++i) {
-        const Vec<2> chord = surface.x((i + 1) % surface.count) - surface.x(i);
+    for (int i = 0; i < n; ++i) {
+        const Vec<2> chord = x(i + 1) - x(i);
+        Vec<2> start = (x(i + 1) - x(i - 1)) / 2, end = (x(i + 2) - x(i)) / 2;
+        if (sharp(i) && sharp(i + 1)) start = end = chord;
+        else if (sharp(i)) start = 2 * chord - end;
+        else if (sharp(i + 1)) end = 2 * chord - start;
         for (int k = 0; k < pieces; ++k) {
             const double t = double(k) / pieces;
-            curve.push_back(surface.x(i) + t * chord + surface.rise[i] * t * (1 - t) * Vec<2>(chord.y(), -chord.x()));
+            curve.push_back(x(i) + t * t * (3 - 2 * t) * chord + t * (1 - t) * (1 - t) * start - t * t * (1 - t) * end);
         }
     }
     return curve;
+}
+
+/// Where a projection says that its foot is.
+inline Vec<2> foot_of(const Surface<2>& surface, const Projection& at)
+{
+    Vec<2> foot = Vec<2>::Zero();
+    for (int k = 0; k < 4; ++k)
+        foot += at.weight[k] * surface.x(at.vertex[k]);
+    return foot;
 }
 
 /// Signed distance of x to a fine closed polyline: negative inside.

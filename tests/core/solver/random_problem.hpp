@@ -83,11 +83,12 @@ struct RandomProblem {
         if (c.other == 3 && random.integer(0, 1)) std::swap(c.body, c.other); // points of the rigid body too
         c.point = random.integer(0, problem.bodies[c.body]->count - 1);
         if (c.other >= 0) {
-            const int first = random.integer(0, problem.bodies[c.other]->count - 2);
-            const double t = random.uniform(0, 1);
-            c.vertex = { first, first + 1 };
-            c.weight = { 1 - t, t };
-            if (used_.count({ c.other, first }) || used_.count({ c.other, first + 1 })) return {};
+            const int first = random.integer(0, problem.bodies[c.other]->count - 4);
+            const double t = random.uniform(0, 1), s = random.uniform(-0.1, 0.1);
+            c.vertex = { first, first + 1, first + 2, first + 3 };
+            c.weight = { s, 1 - t, t, -s };
+            for (int vertex : c.vertex)
+                if (used_.count({ c.other, vertex })) return {};
         }
         if (used_.count({ c.body, c.point })) return {};
         used_.insert({ c.body, c.point });
@@ -111,7 +112,7 @@ struct RandomProblem {
             const Contact<2>& c = problem.contacts[i];
             if (c.body == body) H(i, c.point) += 1;
             if (c.other == body)
-                for (int k = 0; k < 2; ++k)
+                for (int k = 0; k < face_vertices<2>; ++k)
                     H(i, c.vertex[k]) -= c.weight[k];
         }
         return H;

@@ -79,26 +79,25 @@ TEST(Collision, KeepsMomentumAndAngularMomentumWithoutFriction)
                 collision.touching, collision.momentum, collision.angular, collision.energy, collision.dissipated);
 }
 
-// Friction acts at the point on the one side and at the foot on the chord on the other, apart by gap and rise of the outline:
-// its couple on the pair is friction x (gap + rise), the rise 1/8 of (angle step)^2 R or less.
-TEST(Collision, WithFrictionKeepsMomentumAndAngularMomentumToTheOutline)
+// Friction acts at the point on the one side and at the foot on the other: its couple on the pair is friction x gap.
+TEST(Collision, WithFrictionKeepsMomentumAndAngularMomentumToTheGap)
 {
     World world;
     world.friction = 0.5;
     add_colliding_discs(world, 124, 2);
-    const double step = 2 * M_PI / world.grains[0].surface.count;
     const Collision collision(world, 0.5);
     EXPECT_LE(collision.momentum, 1e-13);
     EXPECT_GT(world.balance.friction, 0);
-    // the frictional impulse is at most mu times the normal one, that at most the momentum of both
-    EXPECT_LE(std::abs(collision.angular), world.friction * step * step / 8 * 1.3 * 2);
+    // the frictional impulse is at most mu times the normal one, that at most the momentum of both; contacts are closed
+    // within 1e-4 of the radius
+    EXPECT_LE(std::abs(collision.angular), world.friction * 2 * 1e-4);
     std::printf("collision with friction: momentum %.1e, angular momentum %.1e, energy %.1e, dissipated %.1e\n", collision.momentum,
                 collision.angular, collision.energy, collision.dissipated);
 }
 
-// Kinetic + elastic + dissipated energy: each contact's work is exact over a step, the rest is of order 2 in the step, as in
-// free vibration (see FreeFlight.KeepsEnergyToOrder2).
-TEST(Collision, BalancesItsEnergyToOrder2)
+// Kinetic + elastic + dissipated energy: each contact's work is exact over a step, the rest is of the step's order (see
+// FreeFlight.KeepsEnergyToOrder2).
+TEST(Collision, BalancesItsEnergy)
 {
     for (double friction : { 0.0, 0.5 }) {
         double error[2];
@@ -108,8 +107,8 @@ TEST(Collision, BalancesItsEnergyToOrder2)
             add_colliding_discs(world, 124, 2);
             error[k] = std::abs(Collision(world, k == 0 ? 0.5 : 0.125).energy);
         }
-        EXPECT_LE(error[0], 3e-3);
-        EXPECT_GE(std::log2(error[0] / error[1]) / 2, 1.5); // impacts start at any part of a step: single runs scatter
+        EXPECT_LE(error[0], 2e-5);
+        EXPECT_LE(error[1], 0.5 * error[0]); // impacts start at any part of a step: single runs scatter
         std::printf("energy of a collision, friction %.1f: %.1e at half the critical step, %.1e at an eighth\n", friction, error[0],
                     error[1]);
     }
@@ -184,7 +183,7 @@ TEST(Result, IsTheSameBitForBitWhenTheSolverRunsOnThreads)
         world.threads = world.solver.threads = threads;
         for (int k = 0; k < 4; ++k)
             world.step(2e-7);
-        EXPECT_GT(world.problem.contacts.size(), 1500u);
+        EXPECT_GT(world.problem.contacts.size(), 1000u); // two threads' worth
         EXPECT_LE(world.problem.residual(), 1e-4);
         EXPECT_LT(world.sweeps, 4 * 1000);
         results.push_back(states(world));

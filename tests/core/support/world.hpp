@@ -61,19 +61,21 @@ public:
         ++steps;
     }
 
-    /// Kinetic and elastic [J/m], half a step back.
+    /// Kinetic and elastic [J/m] of the last step.
     double energy()
     {
-        evaluate();
+        if (!assembly_) start();
+        assembly_->evaluate_energy(dt, threads);
         double sum = 0;
         for (const auto& grain : grains)
             sum += grain.motion.kinetic + grain.elastic;
         return sum;
     }
+    /// Smallest stretches.
     void evaluate()
     {
         if (!assembly_) start();
-        assembly_->evaluate_energy(dt, threads);
+        assembly_->evaluate_stretch(threads);
     }
     /// Hands the fields back to the grains; the next step takes them in again.
     void release() { assembly_.reset(); }
@@ -164,7 +166,7 @@ private:
             if (owners_[c].second >= 0) plane_force[owners_[c].second] -= contact.impulse / dt;
             give(grains[contact.body].surface, contact.point, contact.impulse);
             if (contact.other < 0) continue;
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < face_vertices<2>; ++k)
                 give(grains[contact.other].surface, contact.vertex[k], -contact.weight[k] * contact.impulse);
         }
     }
