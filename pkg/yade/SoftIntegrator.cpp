@@ -73,10 +73,15 @@ void SoftIntegrator::advance(double dt)
     gatherPairs();
     pose(dt);
     if (fresh_) refuseOverlaps();
+    else
+        refuseLeaks();
     fresh_ = false;
     watch.stage(1);
 
-    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps, threads() }.solve(problem_);
+    solver_.tolerance  = tolerance;
+    solver_.max_sweeps = maxSweeps;
+    solver_.threads    = threads();
+    iterations         = solver_.solve(problem_);
     totalIterations += iterations;
     contactCount = int(problem_.contacts.size());
     contactIterations += Real(iterations) * contactCount;
@@ -85,7 +90,7 @@ void SoftIntegrator::advance(double dt)
     softgrain::EnergyBalance balance;
     softgrain::Assembly<2>::account(problem_, balance);
     for (SoftState* state : states_) {
-        balance.external_work += dt * state->mass * gravity.dot(state->vel);
+        balance.external_work += dt * state->mass * gravity.dot(state->vel) / 2; // and as much again at the end of the step
         std::fill(state->grain.surface.impulse.begin(), state->grain.surface.impulse.end(), 0.0);
     }
     externalWork += balance.external_work;
@@ -93,12 +98,13 @@ void SoftIntegrator::advance(double dt)
     contactDissipation += balance.contact_dissipation;
     deliver(dt);
     assembly_->correct(dt, threads());
-    for (SoftState* state : states_)
+    for (SoftState* state : states_) {
         state->publish();
+        externalWork += dt * state->mass * gravity.dot(state->vel) / 2;
+    }
     requestCollider();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
-        refuseLeaks();
         evaluate();
     }
     if (scene->trackEnergy) trackEnergies();
@@ -253,6 +259,7 @@ void SoftIntegrator::pose(double dt)
             contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
             contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
             contact.point     = point.point;
+            contact.face      = point.face;
             contact.vertex    = point.vertex;
             contact.weight    = point.weight;
             contact.normal    = point.normal;
@@ -292,13 +299,15 @@ void SoftIntegrator::refuseOverlaps() const
 void SoftIntegrator::refuseLeaks() const
 {
     constexpr Real most = 0.1; // of the radius
-    for (const Pair& pair : pairs_)
+    for (const Pair& pair : pairs_) {
+        const Real deepest = -most * pair.size();
         for (const auto& point : pair.geom->points())
-            if (-point.gap > most * pair.size())
+            if (point.gap < deepest)
                 throw softgrain::SimulationError(
-                        "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
+                        "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of its contact with body #"
                         + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
                         + " radii; likely causes: grains pressed beyond what their resolution can follow, or an impact near the wave speed.");
+    }
 }
 
 /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
