@@ -138,6 +138,7 @@ private:
         std::vector<Block> blocks;
         std::vector<double> responses; ///< changes of velocities by unit impulses, at the columns of the face's rows [1/kg]
         std::vector<double> delassus;
+        std::vector<Vec<Dim>> velocity, before; ///< relative velocities, and impulses before, of the block in hand
         double change = 0, size = 0; ///< squared change and size of the impulses in the last sweep
         void clear()
         {
@@ -272,9 +273,9 @@ private:
         constexpr int most_rounds = 8;
         constexpr double enough = 1e-4; // of the impulses, squared
         Local<Dim>* const locals = &group.locals[block.first];
-        thread_local std::vector<Vec<Dim>> velocity, before;
-        velocity.resize(block.count);
-        before.resize(block.count);
+        auto &velocity = group.velocity, &before = group.before;
+        velocity.resize(std::max(velocity.size(), block.count));
+        before.resize(velocity.size());
         for (size_t i = 0; i < block.count; ++i) {
             velocity[i] = approach(locals[i]);
             before[i] = locals[i].impulse;
