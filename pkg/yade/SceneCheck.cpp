@@ -30,6 +30,7 @@ void requireSoftEngines(const Scene& scene)
         if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get())) needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
     }
     if (needed.count("Ip2_SoftMat_SoftMat_SoftPhys") == 0) return; // no soft grains
+    if (scene.isPeriodic) throw std::runtime_error("O.periodic=True: periodic scenes are not supported for soft grains; use walls.");
     if (!walls.empty()) throw std::runtime_error(walls.front());
     needed.insert("Law2_SoftGeom_SoftPhys_ContactDynamics");
 

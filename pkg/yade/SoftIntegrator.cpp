@@ -72,8 +72,13 @@ void SoftIntegrator::advance(double dt)
 
     gatherPairs();
     pose(dt);
-    if (fresh_) refuseOverlaps();
-    fresh_ = false;
+    if (fresh_) {
+        refuseOverlaps();
+        for (SoftState* state : states_)
+            state->justPlaced = false;
+        fresh_ = false;
+    }
+    refuseLeaks(scene->iter % checkInterval == 0 ? 0.1 : 0.5); // an impact may go deeper for some steps
     watch.stage(1);
 
     iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps, threads() }.solve(problem_);
@@ -98,9 +103,9 @@ void SoftIntegrator::advance(double dt)
     requestCollider();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
-        refuseLeaks();
         evaluate();
-    }
+    } else if (minJ() < 0.95 * evaluatedJ_) // an impact shortens the stable step within a few steps
+        evaluate();
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
 }
@@ -121,7 +126,6 @@ void SoftIntegrator::adopt()
     if (unchanged && known == bodies_.size()) return;
 
     requireSoftEngines(*scene);
-    if (scene->isPeriodic) throw std::runtime_error("SoftIntegrator: periodic scenes (O.periodic=True) are not supported for soft grains; use walls.");
     assembly_.reset();
     bodies_.clear();
     states_.clear();
@@ -132,7 +136,6 @@ void SoftIntegrator::adopt()
         if (!state) continue;
         state->prepare(*body);
         fresh_ |= state->justPlaced;
-        state->justPlaced = false;
         if (body->clumpId >= 0)
             throw std::runtime_error("soft grain #" + std::to_string(body->id) + ": it belongs to a clump, and clumps are rigid; release it from the clump.");
         if (!body->bound)
@@ -266,10 +269,11 @@ void SoftIntegrator::pose(double dt)
         }
 }
 
-/// New grains must not overlap: contact would throw them apart.
+/// New grains must not overlap: contact would throw them apart. Those of a dense packing may, a little.
 void SoftIntegrator::refuseOverlaps() const
 {
     for (const Pair& pair : pairs_) {
+        if (!pair.second->justPlaced && !(pair.first && pair.first->justPlaced)) continue;
         const auto& second = pair.second->grain.surface;
         Real depth         = 0;
         for (const auto& point : pair.geom->points())
@@ -288,17 +292,17 @@ void SoftIntegrator::refuseOverlaps() const
     }
 }
 
-/// Surface points that got past each other: the answer is worth nothing from here on.
-void SoftIntegrator::refuseLeaks() const
+/// Surface points that got past each other by `most` radii: the answer is worth nothing from here on.
+void SoftIntegrator::refuseLeaks(Real most) const
 {
-    constexpr Real most = 0.1; // of the radius
     for (const Pair& pair : pairs_)
         for (const auto& point : pair.geom->points())
             if (-point.gap > most * pair.size())
                 throw softgrain::SimulationError(
                         "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
                         + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
-                        + " radii; likely causes: grains pressed beyond what their resolution can follow, or an impact near the wave speed.");
+                        + " radii; likely causes: grains pressed beyond what their resolution can follow, an impact near the wave speed, or a body moved by "
+                          "hand.");
 }
 
 /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
@@ -366,6 +370,7 @@ void SoftIntegrator::evaluate()
     adopt();
     if (!assembly_) return;
     assembly_->evaluate_stretch(threads());
+    evaluatedJ_  = minJ();
     criticalStep = std::numeric_limits<Real>::max();
     for (SoftState* state : states_)
         criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));

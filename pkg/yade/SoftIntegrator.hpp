@@ -95,7 +95,7 @@ private:
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;
-    void refuseLeaks() const;
+    void refuseLeaks(Real most) const;
     void deliver(double dt);
     void requestCollider() const;
     void trackEnergies();
@@ -108,6 +108,7 @@ private:
     std::vector<Pair> pairs_;
     softgrain::ContactProblem<2> problem_;
     bool fresh_ = false; ///< grains have come since the last step
+    Real evaluatedJ_ = 1; ///< smallest J when the stable step was evaluated
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);
