@@ -8,10 +8,25 @@
 #include <pkg/common/Wall.hpp>
 
 #include <core/InteractionLoop.hpp>
+#include <core/PartialEngine.hpp>
 
 #include <set>
 
 namespace yade {
+
+namespace {
+    /// What a KinematicEngine sets of a grain is not looked at where the grain is free.
+    void requireDriven(const Scene& scene, const PartialEngine& driver)
+    {
+        constexpr unsigned plane = State::DOF_X | State::DOF_Y | State::DOF_RZ;
+        for (Body::id_t id : driver.ids)
+            if (scene.bodies->exists(id))
+                if (const SoftState* state = softStateOf(*(*scene.bodies)[id]); state && (state->blockedDOFs & plane) != plane)
+                    throw std::runtime_error(
+                            driver.getClassName() + " drives soft grain #" + std::to_string(id)
+                            + ", which is free to move; set its state.blockedDOFs = 'xyZ', or take the engine off it.");
+    }
+} // namespace
 
 void requireSoftEngines(const Scene& scene)
 {
@@ -42,6 +57,9 @@ void requireSoftEngines(const Scene& scene)
             ++integrators;
             inOrder = loops > 0;
         }
+        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get()); 
+            driver && (driver->getBaseClassName() == "KinematicEngine" || driver->getClassName() == "CombinedKinematicEngine"))
+            requireDriven(scene, *driver);
         if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
             ++loops;
             for (const auto& functor : loop->geomDispatcher->functors)

@@ -85,16 +85,18 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         const int lanes = batch.lanes;
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
-            members_[b][lane]->min_J = batch.per_lane[lane];
+            Grain<Dim>& grain = *members_[b][lane];
+            grain.min_J = batch.per_lane[lane];
             for (int d = 0; d < Dim; ++d)
-                batch.gain[d * lanes + lane] = dt * gravity[d] / members_[b][lane]->radius;
+                batch.gain[d * lanes + lane] = dt * (gravity[d] + grain.acceleration[d]) / grain.radius;
+            grain.surface.velocity_before.swap(grain.surface.velocity); // filled below
+            if (grain.spin_acceleration != Mat<Dim>::Zero()) grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
         }
         motion_kernels<Dim>().kick[batch.wide()](batch.data(), dt, batch.gain.data());
         const double* values = batch.surface();
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             Surface<Dim>& surface = grain.surface;
-            surface.velocity_before.swap(surface.velocity);
             for (size_t i = 0; i < surface.velocity.size(); ++i)
                 surface.velocity[i] = grain.radius * values[i * lanes + lane];
         }
