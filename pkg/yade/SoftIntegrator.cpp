@@ -80,7 +80,6 @@ void SoftIntegrator::advance(double dt)
             state->justPlaced = false;
         fresh_ = false;
     }
-    refuseLeaks(scene->iter % checkInterval == 0 ? 0.1 : 0.5); // an impact may go deeper for some steps
     watch.stage(1);
 
     iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps, threads() }.solve(problem_);
@@ -212,7 +211,7 @@ void SoftIntegrator::gatherLoads()
     for (size_t i = 0; i < states_.size(); ++i) {
         SoftState& state = *states_[i];
         auto& grain      = state.grain;
-        state.heed();
+        if (state.touched()) state.heed();
         externalWork += std::exchange(state.workByHand, 0);
         const Vector3r &force = scene->forces.getForce(grain.id), &torque = scene->forces.getTorque(grain.id);
         if (!force.allFinite() || !torque.allFinite() || force[2] != 0 || torque[0] != 0 || torque[1] != 0)
@@ -326,8 +325,11 @@ void SoftIntegrator::gatherPairs()
 void SoftIntegrator::pose(double dt)
 {
     problem_.contacts.clear();
-    for (const Pair& pair : pairs_)
+    const Real most = scene->iter % checkInterval == 0 ? 0.1 : 0.5; // an impact may go deeper for some steps
+    for (const Pair& pair : pairs_) {
+        const Real deepest = -most * pair.size();
         for (const auto& point : pair.geom->points()) {
+            if (point.gap < deepest && !fresh_) refuseLeak(pair, point);
             softgrain::Contact<2> contact;
             contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
             contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
@@ -343,6 +345,7 @@ void SoftIntegrator::pose(double dt)
             contact.impulse  = dt * point.force;
             problem_.contacts.push_back(contact);
         }
+    }
 }
 
 /// New grains must not overlap: contact would throw them apart. Those of a dense packing may, a little.
@@ -368,17 +371,14 @@ void SoftIntegrator::refuseOverlaps() const
     }
 }
 
-/// Surface points that got past each other by `most` radii: the answer is worth nothing from here on.
-void SoftIntegrator::refuseLeaks(Real most) const
+/// Surface points that got past each other: the answer is worth nothing from here on.
+void SoftIntegrator::refuseLeak(const Pair& pair, const softgrain::ContactPoint<2>& point) const
 {
-    for (const Pair& pair : pairs_)
-        for (const auto& point : pair.geom->points())
-            if (-point.gap > most * pair.size())
-                throw softgrain::SimulationError(
-                        "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
-                        + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
-                        + " radii; likely causes: grains pressed beyond what their resolution can follow, an impact near the wave speed, or a body moved by "
-                          "hand.");
+    throw softgrain::SimulationError(
+            "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
+            + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
+            + " radii; likely causes: grains pressed beyond what their resolution can follow, an impact near the wave speed, or a body moved "
+              "by hand.");
 }
 
 /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.

@@ -97,7 +97,7 @@ private:
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;
-    void refuseLeaks(Real most) const;
+    [[noreturn]] void refuseLeak(const Pair& pair, const softgrain::ContactPoint<2>& point) const;
     void deliver(double dt);
     void hold(double dt);
     Real powerOfLoads() const;

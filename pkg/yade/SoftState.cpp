@@ -146,7 +146,6 @@ void SoftState::setOrientation(const Quaternionr& value)
 
 void SoftState::heed()
 {
-    if (asked.vel == published.vel && asked.angVel == published.angVel) return;
     if (!asked.vel.allFinite() || !asked.angVel.allFinite() || asked.vel[2] != 0 || asked.angVel[0] != 0 || asked.angVel[1] != 0)
         throw softgrain::UserError(whose(grain.id) + ": its velocity has to be finite and in the xy-plane, its spin about z; soft grains stay in the plane.");
     const Plane kick  = (asked.vel - published.vel).head<2>();
@@ -201,7 +200,7 @@ void SoftState::preSave(SoftState&)
     savedPos    = pos;
     savedVel    = vel;
     savedAngVel = angVel;
-    heed();
+    if (touched()) heed();
     grain.pull();
     nodeDisplacement = grain.displacement;
     nodeVelocity     = grain.velocity;

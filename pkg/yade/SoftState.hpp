@@ -24,7 +24,9 @@ public:
     void renew(const Body& body);
     /// Copies the grain's rigid motion into pos, vel, ori, angVel; blocked velocities stay what they are asked to be.
     void publish();
-    /// Changes the grain's velocity by what was set by hand since publish().
+    /// A velocity was set by hand since publish().
+    bool touched() const { return asked.vel != published.vel || asked.angVel != published.angVel; }
+    /// Changes the grain's velocity by that.
     void heed();
     /// Whether the motions along x and y and about z are blocked.
     std::array<bool, 3> held() const { return { bool(blockedDOFs & DOF_X), bool(blockedDOFs & DOF_Y), bool(blockedDOFs & DOF_RZ) }; }
