@@ -23,6 +23,17 @@ namespace {
                                 "resolution can follow, or an impact near the wave speed.");
     }
 
+    template <int Dim> [[noreturn]] void report_not_finite(const Grain<Dim>& grain)
+    {
+        const auto x = grain.point_positions(), v = grain.point_velocities();
+        int first = 0;
+        while (first + 1 < int(x.size()) && x[first].allFinite() && v[first].allFinite())
+            ++first;
+        throw SimulationError(whose(grain.id) + ": the motion of material point " + std::to_string(first)
+                              + " is no longer a finite number (kinetic energy " + shown(grain.motion.kinetic)
+                              + " J); likely causes: a time step over the stable limit or a body moved by hand.");
+    }
+
 } // namespace
 
 template <int Dim>
@@ -150,15 +161,15 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
             grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
         }
     }
-    for (const Grain<Dim>* grain : grains_) {
+    for (Grain<Dim>* grain : grains_) {
+        if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite()) {
+            grain->pull();
+            report_not_finite(*grain);
+        }
         if (grain->surface.speed * dt > 0.5 * grain->surface.size)
             throw SimulationError(whose(grain->id) + ": it moves " + shown(grain->surface.speed * dt / grain->surface.size)
                                   + " radii in one step, so that it could pass through other bodies; slow it down (speed "
                                   + shown(grain->surface.speed) + " m/s) or take a smaller time step.");
-        if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite())
-            throw SimulationError(whose(grain->id) + ": its motion is no longer a finite number (kinetic energy "
-                                  + shown(grain->motion.kinetic)
-                                  + " J); likely causes: a time step over the stable limit or a body moved by hand.");
     }
 }
 
