@@ -41,6 +41,12 @@ public:
     Quaternionr orientation() const { return ori; }
     void setPosition(const Vector3r& value);
     void setOrientation(const Quaternionr& value);
+    Se3r placement() const { return Se3r(pos, ori); }
+    void setPlacement(const Se3r& value)
+    {
+        setOrientation(value.orientation);
+        setPosition(value.position);
+    }
 
     boost::python::object pointPositions();
     boost::python::object pointVelocities();
@@ -91,6 +97,7 @@ public:
                             &SoftState::orientation,
                             &SoftState::setOrientation,
                             "Rotation in the polar decomposition of the mean deformation gradient; to be set before the first step only.")
+                    .add_property("se3", &SoftState::placement, &SoftState::setPlacement, "pos and ori.")
                     .add_property(
                             "vel",
                             boost::python::make_function(&SoftState::velocity, boost::python::return_internal_reference<>()),

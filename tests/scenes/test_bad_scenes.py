@@ -333,6 +333,12 @@ def later(change):
     return build
 
 
+def sunk_in():
+    """A wall put 0.2 radii into a grain: deeper than what is let pass, at a step in which that is looked at."""
+    later(lambda body: setattr(body.state, "pos", (0, O.bodies[0].state.pos[1] - 0.8e-3, 0)))()
+    measures.softIntegrator().checkInterval = 1
+
+
 def clumped():
     O.bodies.appendClumped([disc(0), disc(3e-3)])
     O.engines = softEngines()
@@ -415,6 +421,7 @@ STEPPING = [
     ("a grain that spins too fast", flying(spin=1e6), ["step 0", "#0", "m/s"]),
     ("a wall that jumps into the grains", later(lambda body: setattr(body.state, "pos", (0, 0, 0))),
      ["step 10 ", "#0", "#2", "point", "sunk in", "by hand"]),
+    ("a grain that has sunk in", sunk_in, ["step 10 ", "#0", "#2", "point", "sunk in by 0.", "radii", "by hand"]),
 ]
 
 

@@ -135,6 +135,28 @@ def saved_and_loaded(checks):
             checks.close_to(f"points, {what}", arrays.points(O.bodies[0])[:, 1].mean(), 1e-3, 1e-7)
 
 
+def a_held_grain_goes_on_when_loaded(checks):
+    with Folder() as folder:
+        path = os.path.join(folder, "scene.yade")
+        found = []
+        for saving in False, True:
+            body = scene(walls=[(1.001e-3, -1)], engines=before_newton(TorqueEngine(ids=[0], moment=(0, 0, 1e-3))))
+            body.state.blockedDOFs = "y"
+            O.bodies[1].state.vel = (0, -2, 0)
+            run(200)
+            body.state.vel[0] = 0.5
+            body.state.vel = (0.5, 0.1, 0)
+            if saving:
+                O.save(path, quiet=True)
+                O.load(path, quiet=True)
+            run(200)
+            soft = measures.softIntegrator()
+            found.append([*arrays.points(O.bodies[0]).ravel() / RADIUS, O.bodies[0].state.vel[0], balance(), soft.externalWork])
+        difference = abs(numpy.subtract(*found)).max()
+        checks.that("the same as without a break", difference < 1e-9, difference)
+        checks.close_to("and goes its way", O.bodies[0].state.vel[1], 0.1, 1e-9)
+
+
 def forces(checks):
     force, torque = 50.0, 5e-3
     body = scene(engines=before_newton(ForceEngine(ids=[0], force=(force, 0, 0)), TorqueEngine(ids=[0], moment=(0, 0, torque))))
@@ -255,6 +277,19 @@ def materials(checks):
     checks.raises("a material that is not soft", (RuntimeError, ValueError), ["#0", "NeoHookeanMat"], run)
 
 
+def friction_of_a_contact(checks):
+    body = scene((0, {"velocity": (1, 0, 0)}), walls=[(-1.0001e-3, 1)], gravity=(0, -1e5, 0))
+    run(100)
+    contact = O.interactions[0, 1].phys
+    body.material.frictionAngle = O.bodies[1].material.frictionAngle = 0.8
+    run(10)
+    checks.close_to("keeps that of its start", contact.friction, math.tan(0.3), 1e-15)
+    contact.friction = 0
+    force = O.forces.f(1)[0]
+    run(10)
+    checks.that("can be set", force > 0 and O.forces.f(1)[0] == 0, (force, O.forces.f(1)))
+
+
 def shape_and_orientation(checks):
     for name, value in (("radius", 2e-3), ("points", 124), ("vertices", [(0, 0, 0), (1, 0, 0), (0, 1, 0)])):
         body = scene()
@@ -266,9 +301,14 @@ def shape_and_orientation(checks):
         run(5)
     body = scene()
     body.state.ori = body.state.ori
+    body.state.se3 = ((0, 1e-3, 0), body.state.ori)
+    checks.close_to("state.se3", arrays.points(body)[:, 1].mean(), 1e-3, 1e-6)
+    checks.raises("state.se3 with a turn", (RuntimeError, ValueError), ["#0", "turned"],
+                  lambda: setattr(body.state, "se3", ((0, 0, 0), Quaternion((0, 0, 1), 0.5))))
     checks.raises("state.ori", (RuntimeError, ValueError), ["#0", "turned", "angVel"],
                   lambda: setattr(body.state, "ori", Quaternion((0, 0, 1), 0.5)))
     run(5)
 
 
-run_tests(position, velocity, saved_and_loaded, forces, blocked, driven_by_engines, materials, shape_and_orientation)
+run_tests(position, velocity, saved_and_loaded, a_held_grain_goes_on_when_loaded, forces, blocked,
+          driven_by_engines, materials, friction_of_a_contact, shape_and_orientation)
