@@ -4,25 +4,22 @@ read by figures.py outside YADE."""
 import numpy
 
 STRESS = 20e3                        # on the bottom wall [Pa]: beyond it the packing is called jammed
-CRITERION = "mean stress on the bottom wall first over 20 kPa, interpolated between output rows"
+WINDOW = 0.01                        # of strain, over which the stress is averaged: waves from the wall run through it
+CRITERION = "stress on the bottom wall, mean over 0.01 of strain, first over 20 kPa, interpolated between output rows"
 EXPONENT = 0.5                       # of eq. 10
 FURTHER = (0.01, 0.02)               # eq. 10 is also shown for phi0 this much beyond jamming: it is a choice
 
 
-def jamming_row(stress):
-    """Index of the first row whose stress [Pa] is over STRESS, or None."""
-    over = numpy.flatnonzero(numpy.asarray(stress) > STRESS)
-    return int(over[0]) if len(over) else None
-
-
 def jamming_point(table):
-    """Strain, solid fraction, stress at jamming, interpolated in stress between the two rows about it, and the
-    coordination of the first row from there on in which grains carry force; a dict with also the row, or None when the
-    run does not jam. `table` maps csv columns to arrays."""
-    row = jamming_row(table["stress_bottom_Pa"])
-    if row is None:
+    """Strain, solid fraction, stress at jamming, interpolated in the averaged stress between the two rows about it, and
+    the coordination of the first row from there on in which grains carry force; a dict with also the row, or None when
+    the run does not jam. `table` maps csv columns to arrays."""
+    strain = table["strain"]
+    stress = numpy.array([table["stress_bottom_Pa"][numpy.abs(strain - middle) <= WINDOW / 2].mean() for middle in strain])
+    over = numpy.flatnonzero(stress > STRESS)
+    if not len(over):
         return None
-    stress = table["stress_bottom_Pa"]
+    row = int(over[0])
     share = 1.0 if row == 0 else (STRESS - stress[row - 1]) / (stress[row] - stress[row - 1])
 
     def between(column):

@@ -12,7 +12,7 @@ from yade import O
 from . import jamming
 from .stepping import WallForces
 
-OUTPUT_STRAIN = 0.002       # vertical strain between two rows [-]
+OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
 COLUMNS = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
            "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
            "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s").split(",")

@@ -42,12 +42,12 @@ public:
                      Attr::triggerPostLoad,
                      "Corners of an undeformed polygon, in order, relative to its centroid, in the body's frame [m]; empty: a disc."))(
                     (int, points, 276, Attr::triggerPostLoad, "Number of material points wished for; pointCount says how many the grid gives [-]."))(
-                    (Real, surfaceSpacing, 0.9, Attr::triggerPostLoad, "Largest distance between surface points [width of a grid cell]."))(
+                    (Real, surfaceSpacing, 1.0, Attr::triggerPostLoad, "Largest distance between surface points [width of a grid cell]."))(
                     (Real,
                      nodeThreshold,
-                     0.08,
+                     0.05,
                      Attr::triggerPostLoad,
-                     "Grid nodes lighter than this follow their neighbours [mass of a full cell]."))(
+                     "Grid nodes lighter than this follow their neighbours [mass of the heaviest node]."))(
                     (Vector2r, gridOffset, Vector2r::Zero(), Attr::triggerPostLoad, "Shift of the grid under the grain [width of a grid cell].")),
             createIndex(),
             .def("pointCount", &SoftGrain::pointCount, "Number of material points [-].")

@@ -82,7 +82,10 @@ void SoftIntegrator::advance(double dt)
     }
     watch.stage(1);
 
-    iterations = softgrain::NonlinearGaussSeidel { tolerance, maxSweeps, threads() }.solve(problem_);
+    solver_.tolerance  = tolerance;
+    solver_.max_sweeps = maxSweeps;
+    solver_.threads    = threads();
+    iterations         = solver_.solve(problem_);
     totalIterations += iterations;
     contactCount = int(problem_.contacts.size());
     contactIterations += Real(iterations) * contactCount;
@@ -325,7 +328,7 @@ void SoftIntegrator::gatherPairs()
 void SoftIntegrator::pose(double dt)
 {
     problem_.contacts.clear();
-    const Real most = scene->iter % checkInterval == 0 ? 0.1 : 0.5; // an impact may go deeper for some steps
+    constexpr Real most = 0.1; // penetration let pass [radius]
     for (const Pair& pair : pairs_) {
         const Real deepest = -most * pair.size();
         for (const auto& point : pair.geom->points()) {
@@ -334,6 +337,7 @@ void SoftIntegrator::pose(double dt)
             contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
             contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
             contact.point     = point.point;
+            contact.face      = point.face;
             contact.vertex    = point.vertex;
             contact.weight    = point.weight;
             contact.normal    = point.normal;

@@ -114,6 +114,7 @@ private:
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
     std::vector<Pair> pairs_;
     softgrain::ContactProblem<2> problem_;
+    softgrain::NonlinearGaussSeidel<2> solver_;
     bool fresh_ = false; ///< grains have come since the last step
     Real evaluatedJ_ = 1; ///< smallest J when the stable step was evaluated
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;

@@ -66,7 +66,7 @@ def position(checks):
 
     body = scene((0, {}), (3e-3, {}))
     body.state.pos = (1.5e-3, 0, 0)
-    checks.raises("into another grain", RuntimeError, ["#0", "#1", "overlap", "0.0005"], run)
+    checks.raises("into another grain", RuntimeError, ["#0", "#1", "overlap", "0.00049"], run)
     body.state.pos = (0, 0, 0)
     run()
     checks.raises("NaN", ValueError, ["#0", "position", "finite"], lambda: setattr(body.state, "pos", (NAN, 0, 0)))

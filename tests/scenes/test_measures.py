@@ -69,7 +69,7 @@ def compaction(exponent, scatter=0.0):
     """Table of an invented compaction that jams at 0.82 with Z0 = 4, and grows to Z = 5.8 at 0.98."""
     fraction = numpy.arange(0.65, 0.9801, 0.001)
     beyond = numpy.maximum(fraction - 0.82, 0) / 0.16
-    stress = numpy.where(fraction < 0.82, 0, jamming.STRESS + 1e6 * beyond**2)
+    stress = jamming.STRESS * numpy.exp((fraction - 0.82) / 0.01)
     count = numpy.where(fraction < 0.82, numpy.nan, 4 + 1.8 * beyond**exponent)
     return {"strain": numpy.log(fraction / 0.65), "solid_fraction": fraction, "stress_bottom_Pa": stress,
             "coordination": count + scatter * numpy.sin(1e5 * fraction)}

@@ -56,7 +56,7 @@ template <class T> SOFTGRAIN_INLINE T square_root(const T& x)
 }
 
 /// Natural logarithm of positive normal numbers, good to 2 units in the last place; anything else gives a
-/// number without meaning, so callers test their argument (see StepMonitor).
+/// number without meaning, so callers test their argument.
 ///
 /// x = m 2^e with m in [sqrt(1/2), sqrt(2)); ln m = 2 atanh(s), s = (m - 1) / (m + 1), by its series in s^2.
 template <class T> SOFTGRAIN_INLINE T logarithm(const T& x)

@@ -83,7 +83,7 @@ int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
 Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, double t)
 {
     constexpr int most_steps = 20;
-    constexpr double tolerance = 1e-7; // of the place; the gap is off by its square
+    constexpr double tolerance = 1e-5; // of the last step: the place is off by its square
     const int n = polyline.count;
     int last_move = 0;
     for (int walked = 0; walked <= n; ++walked) {

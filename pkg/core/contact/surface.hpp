@@ -7,9 +7,6 @@
 
 namespace softgrain {
 
-/// Surface points that a place on the boundary follows: in 2D the ends of its segment and one beyond each.
-template <int Dim> constexpr int face_vertices = Dim == 2 ? 4 : 3;
-
 /// The boundary of a body as contact sees it, in world coordinates. A soft grain fills it every step from its
 /// grid; a rigid polygon from its motion.
 template <int Dim> struct Surface {

@@ -345,6 +345,20 @@ template <int Dim> void Discretisation<Dim>::build_delassus()
         }
         delassus_row.push_back(int(delassus_column.size()));
     }
+    const int n = surface_count();
+    for (int segment = 0; segment < n; ++segment) {
+        FaceRows& rows = face_rows.emplace_back();
+        const auto vertex = [&](int k) { return (segment + n - 1 + k) % n; };
+        for (int q = 0; q < n; ++q) {
+            bool any = false;
+            for (int k = 0; k < face_vertices<Dim>; ++k)
+                any |= delassus(vertex(k), q) != 0;
+            if (!any) continue;
+            rows.column.push_back(q);
+            for (int k = 0; k < face_vertices<Dim>; ++k)
+                rows.value[k].push_back(delassus(vertex(k), q));
+        }
+    }
 }
 
 template <int Dim> double Discretisation<Dim>::delassus(int row, int column) const

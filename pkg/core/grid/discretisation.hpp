@@ -15,11 +15,14 @@ namespace softgrain {
 /// How a grain is discretised. Defaults: the accuracy study of doc/theory.md.
 struct Resolution {
     int points = 276;               ///< material points wished for; the nearest layout is taken
-    double surface_spacing = 0.9;   ///< largest distance of surface points [cell widths]
-    double node_threshold = 0.08;   ///< nodes with less mass follow their neighbours [mass of the heaviest node]
+    double surface_spacing = 1.0;   ///< largest distance of surface points [cell widths]
+    double node_threshold = 0.05;   ///< nodes with less mass follow their neighbours [mass of the heaviest node]
     double merge_threshold = 0.35;  ///< cells filled less join a neighbour [volume of a cell]
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
 };
+
+/// Surface points that a place on a face follows: in 2D the ends of its segment and one beyond each.
+template <int Dim> constexpr int face_vertices = Dim == 2 ? 4 : 3;
 
 template <int Dim> class Discretisation {
 public:
@@ -86,6 +89,12 @@ public:
     std::vector<double> delassus_value;
     std::vector<double> delassus_diagonal;
     double delassus(int row, int column) const;
+    /// The same for faces: the rows of all vertices that a face follows, on the columns that any of them has.
+    struct FaceRows {
+        std::vector<int> column;
+        std::array<std::vector<double>, face_vertices<Dim>> value; ///< [vertex][column]
+    };
+    std::vector<FaceRows> face_rows; ///< [segment]
 
     Moments<Dim> moments; ///< of the material points; equal to the outline's to round-off
 

@@ -35,7 +35,7 @@ template <int Dim> double ContactProblem<Dim>::residual() const
         error += (r - cone_projection(target, n, contact.friction)).squaredNorm();
         r2 += r.squaredNorm();
         u2 += u.squaredNorm();
-        q2 += (inertia * (relative(contact, &Surface<Dim>::velocity_before) + contact.gap_speed * n)).squaredNorm();
+        q2 += (inertia * contact.free).squaredNorm();
     }
     const double scale = std::sqrt(std::max({ r2, u2, q2 }));
     return scale > 0 ? std::sqrt(error) / scale : 0;

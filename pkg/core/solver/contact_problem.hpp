@@ -14,6 +14,7 @@ template <int Dim> struct Contact {
     int body;            ///< that the point is on, place in ContactProblem::bodies
     int other;           ///< that the face is on; -1: a rigid plane
     int point;
+    int face;            ///< segment (2D)
     std::array<int, face_vertices<Dim>> vertex;    ///< that the face follows
     std::array<double, face_vertices<Dim>> weight; ///< of the vertices, sum 1
     Vec<Dim> normal;     ///< from the face to the point
@@ -23,6 +24,7 @@ template <int Dim> struct Contact {
     const ContactLaw<Dim>* law;
     Vec<Dim> impulse;    ///< on the point side: start value, then solution [N s]
     double inertia = 0;  ///< 1 / (normal entry of the Delassus operator) [kg]; set by the solver
+    Vec<Dim> free = Vec<Dim>::Zero(); ///< relative velocity with the gap, without any impulses [m/s]; set by the solver
 };
 
 template <int Dim> struct ContactProblem {

@@ -39,133 +39,152 @@ namespace {
     /// in one array.
     template <int Dim> struct Local {
         int point, vertex[face_vertices<Dim>]; ///< places in the array of velocities; a rigid plane has no vertices
-        int body, other;
         double weight[face_vertices<Dim>];
         Vec<Dim> normal, offset;     ///< offset: gap speed along the normal, less the drive of a rigid plane
         Vec<Dim> impulse;
-        Contact<Dim>* contact;
         double inertia, friction;
         const ContactLaw<Dim>* law;
         const SignoriniCoulomb<Dim>* coulomb; ///< the law, if it is this one
+        size_t response; ///< of its face's body to a unit impulse, in Group::responses
+        Contact<Dim>* contact;
     };
 
-    template <int Dim> class Sweeper {
-    public:
-        explicit Sweeper(ContactProblem<Dim>& problem)
-            : problem_(problem)
-        {
-            size_t count = 0;
-            for (const Surface<Dim>* body : problem.bodies) {
-                bodies_.push_back({ int(count), body->mobility, body->mesh });
-                count += body->count;
-            }
-            velocity_.reserve(Dim * count);
-            for (const Surface<Dim>* body : problem.bodies)
-                velocity_.insert(velocity_.end(), body->velocity.begin(), body->velocity.end());
-            group(problem);
+} // namespace
+
+/// Works on one problem after the other and keeps its arrays, which change little from step to step.
+template <int Dim> class NonlinearGaussSeidel<Dim>::Sweeper {
+public:
+    void begin(ContactProblem<Dim>& problem)
+    {
+        problem_ = &problem;
+        bodies_.clear();
+        velocity_.clear();
+        for (const Surface<Dim>* body : problem.bodies) {
+            bodies_.push_back({ int(velocity_.size()) / Dim, body->mobility, body->mesh });
+            velocity_.insert(velocity_.end(), body->velocity.begin(), body->velocity.end());
         }
+        divide();
+    }
 
-        /// Phases of a sweep: inside strips, between even and next, between odd and next, all others.
-        static constexpr int phases = 4;
-        int groups(int phase) const { return int(phase_[phase + 1] - phase_[phase]); }
+    /// Phases of a sweep: inside strips, between even and next, between odd and next, all others.
+    static constexpr int phases = 4;
+    int groups(int phase) const { return phase_[phase + 1] - phase_[phase]; }
 
-        /// Starts from the impulses of the contacts of a group.
-        void start(int phase, int which)
-        {
-            each(phase, which, [&](Local<Dim>& local) {
-                prepare(local);
-                if (local.impulse != Vec<Dim>::Zero()) strike(local, local.impulse);
-            });
+    /// Reads the contacts of a group.
+    void prepare(int phase, int which)
+    {
+        Group& group = groups_[phase_[phase] + which];
+        thread_local std::vector<double> scratch; // zero between the calls
+        scratch.resize(velocity_.size() / Dim, 0);
+        for (Block& block : group.blocks)
+            prepare(group, block, scratch);
+    }
+
+    /// Starts from the impulses of the contacts of a group.
+    void start(int phase, int which)
+    {
+        const Group& group = groups_[phase_[phase] + which];
+        for (const Local<Dim>& local : group.locals)
+            if (local.impulse != Vec<Dim>::Zero()) strike(group, local, local.impulse);
+    }
+
+    /// Treats the contacts of a group once.
+    void sweep(int phase, int which)
+    {
+        Group& group = groups_[phase_[phase] + which];
+        group.change = group.size = 0;
+        for (const Block& block : group.blocks)
+            solve(group, block);
+    }
+
+    /// The last sweep changed the impulses by less than this, relative to their size.
+    bool converged(double tolerance) const
+    {
+        double change = 0, size = 0;
+        for (const Group& group : groups_) {
+            change += group.change;
+            size += group.size;
         }
+        return change <= tolerance * tolerance * size;
+    }
 
-        /// Treats the contacts of a group once.
-        void sweep(int phase, int which)
-        {
-            double change = 0, size = 0;
-            each(phase, which, [&](Local<Dim>& local) {
-                const Vec<Dim> trial = local.impulse - local.inertia * approach(local);
-                const LocalContact<Dim> problem { local.normal, local.friction, trial };
-                // the common law is called by name, so that it is inlined
-                const Vec<Dim> impulse
-                    = local.coulomb ? local.coulomb->SignoriniCoulomb<Dim>::reaction(problem) : local.law->reaction(problem);
-                const Vec<Dim> step = impulse - local.impulse;
-                if (step == Vec<Dim>::Zero()) return;
-                local.impulse = impulse;
-                strike(local, step);
-                change += step.squaredNorm();
-                size += impulse.squaredNorm();
-            });
-            progress_[phase_[phase] + which] = { change, size };
-        }
-
-        /// The last sweep changed the impulses by less than this, relative to those it changed.
-        bool converged(double tolerance) const
-        {
-            double change = 0, size = 0;
-            for (const auto& [part, whole] : progress_) {
-                change += part;
-                size += whole;
-            }
-            return change <= tolerance * tolerance * size;
-        }
-
-        void finish()
-        {
-            for (const Local<Dim>& local : locals_)
+    void finish()
+    {
+        for (const Group& group : groups_)
+            for (const Local<Dim>& local : group.locals) {
                 local.contact->impulse = local.impulse;
-            for (size_t b = 0; b < bodies_.size(); ++b) {
-                const double* from = velocity_.data() + Dim * bodies_[b].first;
-                std::copy(from, from + problem_.bodies[b]->velocity.size(), problem_.bodies[b]->velocity.begin());
+                local.contact->inertia = local.inertia;
             }
+        for (size_t b = 0; b < bodies_.size(); ++b) {
+            const double* from = velocity_.data() + Dim * bodies_[b].first;
+            std::copy(from, from + problem_->bodies[b]->velocity.size(), problem_->bodies[b]->velocity.begin());
         }
+    }
 
-    private:
-        struct Body {
-            int first; ///< of its points among all
-            double mobility;
-            const Discretisation<Dim>* mesh;
+private:
+    struct Body {
+        int first; ///< of its points among all
+        double mobility;
+        const Discretisation<Dim>* mesh;
+    };
+    /// The contacts of two bodies.
+    struct Block {
+        size_t first, count; ///< in Group::locals
+        size_t delassus;     ///< of the block, count x count, in Group::delassus
+    };
+    /// What one thread treats in a phase.
+    struct Group {
+        std::vector<Local<Dim>> locals;
+        std::vector<Block> blocks;
+        std::vector<double> responses; ///< changes of velocities by unit impulses, at the columns of the face's rows [1/kg]
+        std::vector<double> delassus;
+        std::vector<Vec<Dim>> velocity, before; ///< relative velocities, and impulses before, of the block in hand
+        double change = 0, size = 0; ///< squared change and size of the impulses in the last sweep
+        void clear()
+        {
+            locals.clear();
+            blocks.clear();
+            responses.clear();
+            delassus.clear();
+        }
+    };
+
+    /// Sorts the contacts into groups, and in each by the two bodies they belong to: neighbours in the problem.
+    void divide()
+    {
+        const std::vector<int> strip = strips_of(problem_->bodies);
+        const int strips = 1 + *std::max_element(strip.begin(), strip.end());
+        phase_ = { 0, strips, strips + strips / 2, 2 * strips - 1, 2 * strips };
+        groups_.resize(phase_[phases]);
+        for (Group& group : groups_)
+            group.clear();
+        const auto group_of = [&](const Contact<Dim>& contact) {
+            const bool one = contact.other < 0 || problem_->bodies[contact.other]->mobility == 0
+                || problem_->bodies[contact.body]->mobility == 0;
+            const int moving = problem_->bodies[contact.body]->mobility == 0 ? contact.other : contact.body;
+            const int a = strip[moving], b = one ? a : strip[contact.other];
+            const int first = std::min(a, b), apart = std::abs(a - b);
+            if (apart == 0) return first;
+            if (apart > 1) return phase_[3];
+            return (first % 2 == 0 ? phase_[1] : phase_[2]) + first / 2;
         };
-
-        /// Sorts the contacts by the group they are treated in.
-        void group(ContactProblem<Dim>& problem)
-        {
-            const std::vector<int> strip = strips_of(problem.bodies);
-            const int strips = 1 + *std::max_element(strip.begin(), strip.end());
-            phase_ = { 0, size_t(strips), size_t(strips + strips / 2), size_t(2 * strips - 1), size_t(2 * strips) };
-            const auto group_of = [&](const Contact<Dim>& contact) -> size_t {
-                const bool one = contact.other < 0 || problem.bodies[contact.other]->mobility == 0
-                    || problem.bodies[contact.body]->mobility == 0;
-                const int moving = problem.bodies[contact.body]->mobility == 0 ? contact.other : contact.body;
-                const int a = strip[moving], b = one ? a : strip[contact.other];
-                const int first = std::min(a, b), apart = std::abs(a - b);
-                if (apart == 0) return size_t(first);
-                if (apart > 1) return phase_[3];
-                return (first % 2 == 0 ? phase_[1] : phase_[2]) + size_t(first / 2);
-            };
-            first_.assign(phase_[phases] + 1, 0);
-            for (const auto& contact : problem.contacts)
-                ++first_[group_of(contact) + 1];
-            for (size_t g = 1; g < first_.size(); ++g)
-                first_[g] += first_[g - 1];
-            std::vector<size_t> next(first_.begin(), first_.end() - 1);
-            locals_.resize(problem.contacts.size());
-            for (auto& contact : problem.contacts)
-                locals_[next[group_of(contact)]++].contact = &contact;
-            progress_.assign(phase_[phases], {});
+        std::pair<int, int> last { -2, -2 };
+        for (auto& contact : problem_->contacts) {
+            Group& group = groups_[group_of(contact)];
+            const std::pair<int, int> bodies = std::minmax(contact.body, contact.other);
+            if (bodies != last) group.blocks.push_back({ group.locals.size(), 0, 0 });
+            last = bodies;
+            ++group.blocks.back().count;
+            group.locals.emplace_back().contact = &contact;
         }
+    }
 
-        template <class Work> void each(int phase, int which, const Work& work)
-        {
-            const size_t g = phase_[phase] + which;
-            for (size_t i = first_[g]; i < first_[g + 1]; ++i)
-                work(locals_[i]);
-        }
-
-        void prepare(Local<Dim>& local) const
-        {
-            Contact<Dim>& contact = *local.contact;
-            local.body = contact.body;
-            local.other = contact.other;
+    void prepare(Group& group, Block& block, std::vector<double>& scratch) const
+    {
+        Local<Dim>* const locals = &group.locals[block.first];
+        for (size_t i = 0; i < block.count; ++i) {
+            Local<Dim>& local = locals[i];
+            const Contact<Dim>& contact = *local.contact;
             local.point = bodies_[contact.body].first + contact.point;
             for (int k = 0; k < face_vertices<Dim>; ++k) {
                 local.vertex[k] = contact.other < 0 ? 0 : bodies_[contact.other].first + contact.vertex[k];
@@ -174,88 +193,156 @@ namespace {
             local.normal = contact.normal;
             local.offset = contact.gap_speed * contact.normal - contact.drive;
             local.impulse = contact.impulse;
-            local.inertia = contact.inertia = 1 / delassus(local);
+            local.contact->free = approach(local);
             local.friction = contact.friction;
             local.law = contact.law;
             local.coulomb = typeid(*contact.law) == typeid(SignoriniCoulomb<Dim>)
                 ? static_cast<const SignoriniCoulomb<Dim>*>(contact.law)
                 : nullptr;
         }
-
-        /// Relative velocity with the gap.
-        Vec<Dim> approach(const Local<Dim>& local) const
-        {
-            const double* v = velocity_.data();
-            Vec<Dim> u;
-            for (int d = 0; d < Dim; ++d) {
-                u[d] = local.offset[d] + v[Dim * local.point + d];
+        block.delassus = group.delassus.size();
+        group.delassus.resize(block.delassus + block.count * block.count);
+        double* const delassus = &group.delassus[block.delassus];
+        for (size_t j = 0; j < block.count; ++j) {
+            locals[j].response = group.responses.size();
+            respond(*locals[j].contact, group.responses);
+            each_response(group, locals[j], [&](int point, double value) { scratch[point] = value; });
+            for (size_t i = j; i < block.count; ++i) {
+                double value = scratch[locals[i].point];
                 for (int k = 0; k < face_vertices<Dim>; ++k)
-                    u[d] -= local.weight[k] * v[Dim * local.vertex[k] + d];
+                    value -= locals[i].weight[k] * scratch[locals[i].vertex[k]];
+                delassus[i * block.count + j] = delassus[j * block.count + i] = value;
             }
-            return u;
+            each_response(group, locals[j], [&](int point, double) { scratch[point] = 0; });
+            locals[j].inertia = 1 / delassus[j * block.count + j];
         }
+    }
 
-        /// Velocities of a body after an impulse on one of its points.
-        void push(const Body& body, int point, const Vec<Dim>& impulse)
-        {
-            if (body.mobility == 0) return;
-            const auto& mesh = *body.mesh;
-            double step[Dim];
-            for (int d = 0; d < Dim; ++d)
-                step[d] = body.mobility * impulse[d];
-            double* const v = velocity_.data() + Dim * body.first;
-            const int end = mesh.delassus_row[point - body.first + 1];
-            for (int j = mesh.delassus_row[point - body.first]; j < end; ++j) {
-                double* at = v + Dim * mesh.delassus_column[j];
-                const double value = mesh.delassus_value[j];
-                double sum[Dim]; // all loads before the stores: one vector operation
-                for (int d = 0; d < Dim; ++d)
-                    sum[d] = at[d] + value * step[d];
-                for (int d = 0; d < Dim; ++d)
-                    at[d] = sum[d];
-            }
-        }
-
-        /// An impulse on the point, and against it on the face.
-        void strike(const Local<Dim>& local, const Vec<Dim>& impulse)
-        {
-            push(bodies_[local.body], local.point, impulse);
-            if (local.other < 0) return;
+    /// Appends what a unit impulse against the face does to its body.
+    void respond(const Contact<Dim>& contact, std::vector<double>& responses) const
+    {
+        if (contact.other < 0 || bodies_[contact.other].mobility == 0) return;
+        const Body& body = bodies_[contact.other];
+        const auto& rows = body.mesh->face_rows[contact.face];
+        const size_t first = responses.size(), count = rows.column.size();
+        responses.resize(first + count);
+        double scale[face_vertices<Dim>];
+        for (int k = 0; k < face_vertices<Dim>; ++k)
+            scale[k] = -body.mobility * contact.weight[k];
+        for (size_t j = 0; j < count; ++j) {
+            double sum = 0;
             for (int k = 0; k < face_vertices<Dim>; ++k)
-                push(bodies_[local.other], local.vertex[k], -local.weight[k] * impulse);
+                sum += scale[k] * rows.value[k][j];
+            responses[first + j] = sum;
         }
+    }
 
-        double delassus(const Local<Dim>& local) const
-        {
-            const Body& body = bodies_[local.body];
-            double sum = body.mobility > 0 ? body.mobility * body.mesh->delassus_diagonal[local.point - body.first] : 0;
-            if (local.other < 0 || bodies_[local.other].mobility == 0) return sum;
-            const Body& other = bodies_[local.other];
-            for (int k = 0; k < face_vertices<Dim>; ++k) {
-                const int row = local.vertex[k] - other.first;
-                sum += other.mobility * local.weight[k] * local.weight[k] * other.mesh->delassus_diagonal[row];
-                for (int l = 0; l < k; ++l)
-                    sum += 2 * other.mobility * local.weight[k] * local.weight[l]
-                        * other.mesh->delassus(row, local.vertex[l] - other.first);
+    /// Calls visit(place among the velocities, change of velocity by a unit impulse [1/kg]).
+    template <class Visit> void each_response(const Group& group, const Local<Dim>& local, const Visit& visit) const
+    {
+        const Contact<Dim>& contact = *local.contact;
+        if (const Body& body = bodies_[contact.body]; body.mobility > 0) {
+            const auto& mesh = *body.mesh;
+            for (int j = mesh.delassus_row[contact.point]; j < mesh.delassus_row[contact.point + 1]; ++j)
+                visit(body.first + mesh.delassus_column[j], body.mobility * mesh.delassus_value[j]);
+        }
+        if (contact.other < 0 || bodies_[contact.other].mobility == 0) return;
+        const Body& body = bodies_[contact.other];
+        const auto& column = body.mesh->face_rows[contact.face].column;
+        for (size_t j = 0; j < column.size(); ++j)
+            visit(body.first + column[j], group.responses[local.response + j]);
+    }
+
+    /// Relative velocity with the gap.
+    Vec<Dim> approach(const Local<Dim>& local) const
+    {
+        const double* v = velocity_.data();
+        Vec<Dim> u;
+        for (int d = 0; d < Dim; ++d) {
+            u[d] = local.offset[d] + v[Dim * local.point + d];
+            for (int k = 0; k < face_vertices<Dim>; ++k)
+                u[d] -= local.weight[k] * v[Dim * local.vertex[k] + d];
+        }
+        return u;
+    }
+
+    /// Brings the contacts of two bodies to rest with each other, all else held: they are coupled most, being next
+    /// to each other, and cheaply, by their own Delassus operator.
+    void solve(Group& group, const Block& block)
+    {
+        constexpr int most_rounds = 8;
+        constexpr double enough = 1e-4; // of the impulses, squared
+        Local<Dim>* const locals = &group.locals[block.first];
+        auto &velocity = group.velocity, &before = group.before;
+        velocity.resize(std::max(velocity.size(), block.count));
+        before.resize(velocity.size());
+        for (size_t i = 0; i < block.count; ++i) {
+            velocity[i] = approach(locals[i]);
+            before[i] = locals[i].impulse;
+        }
+        for (int round = 0; round < most_rounds; ++round) {
+            double change = 0, size = 0;
+            for (size_t i = 0; i < block.count; ++i) {
+                Local<Dim>& local = locals[i];
+                const LocalContact<Dim> problem { local.normal, local.friction, local.impulse - local.inertia * velocity[i] };
+                // the common law is called by name, so that it is inlined
+                const Vec<Dim> impulse
+                    = local.coulomb ? local.coulomb->SignoriniCoulomb<Dim>::reaction(problem) : local.law->reaction(problem);
+                const Vec<Dim> step = impulse - local.impulse;
+                size += impulse.squaredNorm();
+                if (step == Vec<Dim>::Zero()) continue;
+                local.impulse = impulse;
+                change += step.squaredNorm();
+                const double* const row = &group.delassus[block.delassus + i * block.count];
+                for (size_t j = 0; j < block.count; ++j)
+                    velocity[j] += row[j] * step;
             }
-            return sum;
+            if (change <= enough * size) break;
         }
+        for (size_t i = 0; i < block.count; ++i) {
+            const Vec<Dim> step = locals[i].impulse - before[i];
+            group.size += locals[i].impulse.squaredNorm();
+            if (step == Vec<Dim>::Zero()) continue;
+            group.change += step.squaredNorm();
+            strike(group, locals[i], step);
+        }
+    }
 
-        ContactProblem<Dim>& problem_;
-        std::vector<Body> bodies_;
-        std::vector<double> velocity_;
-        std::vector<Local<Dim>> locals_;  ///< group after group
-        std::array<size_t, phases + 1> phase_; ///< first group of each phase
-        std::vector<size_t> first_;            ///< first contact of each group
-        std::vector<std::pair<double, double>> progress_; ///< of each group: squared change and size of its impulses
-    };
+    void strike(const Group& group, const Local<Dim>& local, const Vec<Dim>& impulse)
+    {
+        double* const v = velocity_.data();
+        each_response(group, local, [&](int point, double value) {
+            double* at = v + Dim * point;
+            double sum[Dim]; // all loads before the stores: one vector operation
+            for (int d = 0; d < Dim; ++d)
+                sum[d] = at[d] + value * impulse[d];
+            for (int d = 0; d < Dim; ++d)
+                at[d] = sum[d];
+        });
+    }
 
-} // namespace
+    ContactProblem<Dim>* problem_ = nullptr;
+    std::vector<Body> bodies_;
+    std::vector<double> velocity_;
+    std::vector<Group> groups_;           ///< phase after phase
+    std::array<int, phases + 1> phase_;   ///< first group of each phase
+};
 
-template <int Dim> int NonlinearGaussSeidel::solve(ContactProblem<Dim>& problem) const
+template <int Dim>
+NonlinearGaussSeidel<Dim>::NonlinearGaussSeidel(double tolerance_, int max_sweeps_)
+    : tolerance(tolerance_)
+    , max_sweeps(max_sweeps_)
+    , sweeper_(std::make_unique<Sweeper>())
+{
+}
+
+template <int Dim> NonlinearGaussSeidel<Dim>::~NonlinearGaussSeidel() = default;
+
+template <int Dim> int NonlinearGaussSeidel<Dim>::solve(ContactProblem<Dim>& problem)
 {
     if (problem.contacts.empty()) return 0;
-    Sweeper<Dim> sweeper(problem);
+    Sweeper& sweeper = *sweeper_;
+    sweeper.begin(problem);
     // below this a sweep is over before threads have met
     constexpr int least_contacts_of_a_thread = 500;
     const int team = std::clamp(int(problem.contacts.size()) / least_contacts_of_a_thread, 1, std::max(1, threads));
@@ -263,12 +350,16 @@ template <int Dim> int NonlinearGaussSeidel::solve(ContactProblem<Dim>& problem)
     bool done = false;
 #pragma omp parallel num_threads(team)
     {
-        for (int phase = 0; phase < Sweeper<Dim>::phases; ++phase)
+        for (int phase = 0; phase < Sweeper::phases; ++phase)
+#pragma omp for schedule(static, 1)
+            for (int g = 0; g < sweeper.groups(phase); ++g)
+                sweeper.prepare(phase, g);
+        for (int phase = 0; phase < Sweeper::phases; ++phase)
 #pragma omp for schedule(static, 1)
             for (int g = 0; g < sweeper.groups(phase); ++g)
                 sweeper.start(phase, g);
         while (!done) {
-            for (int phase = 0; phase < Sweeper<Dim>::phases; ++phase) {
+            for (int phase = 0; phase < Sweeper::phases; ++phase) {
                 if (sweeper.groups(phase) == 0) continue;
 #pragma omp for schedule(static, 1)
                 for (int g = 0; g < sweeper.groups(phase); ++g)
@@ -285,6 +376,6 @@ template <int Dim> int NonlinearGaussSeidel::solve(ContactProblem<Dim>& problem)
     return sweeps;
 }
 
-template int NonlinearGaussSeidel::solve<2>(ContactProblem<2>&) const;
+template class NonlinearGaussSeidel<2>;
 
 } // namespace softgrain

@@ -3,24 +3,35 @@
 
 #include "solver/contact_problem.hpp"
 
+#include <memory>
+
 namespace softgrain {
 
-/// Non-linear Gauss-Seidel (Jean 1999): contact by contact the local law is solved exactly with the others held,
-/// until the impulses of a whole sweep change by less than the tolerance, relative to the largest of them.
+/// Non-linear Gauss-Seidel (Jean 1999) by blocks: for two bodies after the other the laws of their contacts are solved
+/// with all others held, contact by contact in turn, until the impulses of a whole sweep change by less than the
+/// tolerance, relative to their size.
 ///
 /// Bodies are divided into strips of space. A sweep treats the contacts inside the strips, then those between a strip
 /// and the next, even ones first: those of different strips do not meet and run side by side. The strips follow from
 /// the scene alone, so the result is the same for every number of threads.
-struct NonlinearGaussSeidel {
-    double tolerance = 1e-3;
-    int max_sweeps = 1000;
+template <int Dim> class NonlinearGaussSeidel {
+public:
+    explicit NonlinearGaussSeidel(double tolerance = 1e-3, int max_sweeps = 1000);
+    ~NonlinearGaussSeidel();
+
+    double tolerance;
+    int max_sweeps;
     int threads = 1;
 
     /// Starts from the contacts' impulses, leaves the solution there, and the velocities of the surfaces to match.
     /// Returns the number of sweeps.
-    template <int Dim> int solve(ContactProblem<Dim>& problem) const;
+    int solve(ContactProblem<Dim>& problem);
+
+private:
+    class Sweeper;
+    std::unique_ptr<Sweeper> sweeper_;
 };
 
-extern template int NonlinearGaussSeidel::solve<2>(ContactProblem<2>&) const;
+extern template class NonlinearGaussSeidel<2>;
 
 } // namespace softgrain

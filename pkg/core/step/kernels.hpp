@@ -231,11 +231,11 @@ template <int Dim, class T, int L> SOFTGRAIN_INLINE void interpolate(const Kerne
     }
 }
 
-/// Points of a cut cell lie where the nodes are held by little mass; a small share of the volumetric stiffness
+/// Points of a cut cell lie where the nodes are held by little mass; a share of the volumetric stiffness
 /// keeps their J near the mean of the region. Full cells need none.
 template <int Dim> SOFTGRAIN_INLINE double stabilisation(const typename Discretisation<Dim>::Region& region)
 {
-    return region.full ? 0 : 0.3;
+    return region.full ? 0 : 0.6;
 }
 
 /// f_i = - sum_p V_p P_p grad N_i (Vu et al. 2017, eq. 6, in the reference configuration) with the mean dilatation

@@ -146,7 +146,7 @@ TEST(PairContacts, ListsHoldWhenSpeedsJump) { tumble(surface_of(disc, 0.2), surf
 
 /// Two discs, the second to the right of the first, with a gap between their boundaries.
 struct Facing {
-    Surface<2> first = surface_of(disc, 0.2), second = surface_of(disc, 0.15, 0.7);
+    Surface<2> first = surface_of(disc, 0.2), second = surface_of(polar(44, [](double) { return 0.7; }));
     PairContacts<2> pair;
     explicit Facing(double gap) { move(second, Vec<2>(1.7 + gap, 0), 0, 1); }
     void rest() { first.speed = second.speed = first.travel = second.travel = 0; }
@@ -225,7 +225,7 @@ TEST(PairContacts, FindTheCornerOfALargerBodyBetweenTheSmallerOnesPoints)
 {
     const PolygonOutline square(rectangle_vertices(1, 1));
     constexpr int count = 16; // the diagonal passes through points of the disc; turned by half an angle, between them
-    Surface<2> large = surface_of(square, 0.2, 2), small = surface_of(disc, 2 * M_PI / count, 0.6);
+    Surface<2> large = surface_of(square, 0.2, 2), small = surface_of(polar(count, [](double) { return 0.6; }));
     const Vec<2> tip = 2 * Vec<2>(square.bounds().max);
     move(small, tip + 0.599 * Vec<2>(1, 1).normalized(), M_PI / count, 1);
     for (Surface<2>* s : { &large, &small })
@@ -244,7 +244,7 @@ TEST(PairContacts, FindTheCornerOfALargerBodyBetweenTheSmallerOnesPoints)
 TEST(PairContacts, ShowTheFacesOfRigidBodies)
 {
     for (double size : { 0.3, 3.0 }) {
-        Surface<2> plate = surface_of(PolygonOutline(rectangle_vertices(4, 1)), 10, size), ball = surface_of(disc, 2 * M_PI / 64);
+        Surface<2> plate = surface_of(PolygonOutline(rectangle_vertices(4, 1)), 10, size), ball = surface_of(polar(64, [](double) { return 1.0; }));
         plate.mobility = 0;
         move(ball, Vec<2>(0, plate.max.y() + 0.999), 0, 1);
         ball.speed = ball.travel = 0;

@@ -139,7 +139,8 @@ TEST(DiscOutline, SamplesTheCircleEvenly)
         }
         EXPECT_NEAR(length, 2 * M_PI, 1e-13);
     }
-    EXPECT_EQ(disc.sample(2 * M_PI / 40).size(), 40u) << "no more than the spacing asks for";
+    EXPECT_EQ(disc.sample(2 * M_PI / 41).size(), 41u) << "no more than the spacing asks for";
+    EXPECT_EQ(disc.sample(2 * M_PI / 40).size(), 41u) << "an odd number";
 }
 
 } // namespace

@@ -85,6 +85,7 @@ struct RandomProblem {
         if (c.other >= 0) {
             const int first = random.integer(0, problem.bodies[c.other]->count - 4);
             const double t = random.uniform(0, 1), s = random.uniform(-0.1, 0.1);
+            c.face = first + 1;
             c.vertex = { first, first + 1, first + 2, first + 3 };
             c.weight = { s, 1 - t, t, -s };
             for (int vertex : c.vertex)

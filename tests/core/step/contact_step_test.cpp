@@ -107,8 +107,8 @@ TEST(Collision, BalancesItsEnergy)
             add_colliding_discs(world, 124, 2);
             error[k] = std::abs(Collision(world, k == 0 ? 0.5 : 0.125).energy);
         }
-        EXPECT_LE(error[0], 2e-5);
-        EXPECT_LE(error[1], 0.5 * error[0]); // impacts start at any part of a step: single runs scatter
+        EXPECT_LE(error[0], 1e-4); // single runs scatter, as impacts start at any part of a step
+        EXPECT_LE(error[1], 1e-4 / 16);
         std::printf("energy of a collision, friction %.1f: %.1e at half the critical step, %.1e at an eighth\n", friction, error[0],
                     error[1]);
     }

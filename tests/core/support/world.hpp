@@ -22,7 +22,7 @@ class World {
 public:
     std::deque<Grain<2>> grains; ///< addresses hold
     std::vector<Plane> planes;
-    NonlinearGaussSeidel solver { 1e-6, 1000 };
+    NonlinearGaussSeidel<2> solver { 1e-6, 1000 };
     double friction = 0;
     Vec<2> gravity = Vec<2>::Zero();
     int threads = 1;
@@ -131,7 +131,7 @@ private:
     {
         static const SignoriniCoulomb<2> law;
         for (auto& p : points) {
-            problem.contacts.push_back({ p.on_second ? second : first, p.on_second ? first : second, p.point, p.vertex,
+            problem.contacts.push_back({ p.on_second ? second : first, p.on_second ? first : second, p.point, p.face, p.vertex,
                                          p.weight, p.normal, p.gap / dt, drive, friction, &law, p.force * dt });
             deepest = std::min(deepest, p.gap);
             owners_.push_back({ &p, plane });
