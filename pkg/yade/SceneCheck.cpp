@@ -8,10 +8,25 @@
 #include <pkg/common/Wall.hpp>
 
 #include <core/InteractionLoop.hpp>
+#include <core/PartialEngine.hpp>
 
 #include <set>
 
 namespace yade {
+
+namespace {
+    /// What a KinematicEngine sets of a grain is not looked at where the grain is free.
+    void requireDriven(const Scene& scene, const PartialEngine& driver)
+    {
+        constexpr unsigned plane = State::DOF_X | State::DOF_Y | State::DOF_RZ;
+        for (Body::id_t id : driver.ids)
+            if (scene.bodies->exists(id))
+                if (const SoftState* state = softStateOf(*(*scene.bodies)[id]); state && (state->blockedDOFs & plane) != plane)
+                    throw std::runtime_error(
+                            driver.getClassName() + " drives soft grain #" + std::to_string(id)
+                            + ", which is free to move; set its state.blockedDOFs = 'xyZ', or take the engine off it.");
+    }
+} // namespace
 
 void requireSoftEngines(const Scene& scene)
 {
@@ -30,6 +45,7 @@ void requireSoftEngines(const Scene& scene)
         if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get())) needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
     }
     if (needed.count("Ip2_SoftMat_SoftMat_SoftPhys") == 0) return; // no soft grains
+    if (scene.isPeriodic) throw std::runtime_error("O.periodic=True: periodic scenes are not supported for soft grains; use walls.");
     if (!walls.empty()) throw std::runtime_error(walls.front());
     needed.insert("Law2_SoftGeom_SoftPhys_ContactDynamics");
 
@@ -41,6 +57,9 @@ void requireSoftEngines(const Scene& scene)
             ++integrators;
             inOrder = loops > 0;
         }
+        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get()); 
+            driver && (driver->getBaseClassName() == "KinematicEngine" || driver->getClassName() == "CombinedKinematicEngine"))
+            requireDriven(scene, *driver);
         if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
             ++loops;
             for (const auto& functor : loop->geomDispatcher->functors)

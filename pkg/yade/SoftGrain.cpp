@@ -29,9 +29,8 @@ void SoftGrain::postLoad(SoftGrain&)
     equivalentRadius_ = NaN;
 }
 
-const std::shared_ptr<const softgrain::Discretisation<2>>& SoftGrain::mesh()
+void SoftGrain::discretise()
 {
-    if (mesh_) return mesh_;
     if (points < 16 || points > 100000)
         throw softgrain::UserError("SoftGrain: points = " + std::to_string(points) + " has to lie between 16 and 100000.");
     if (!(surfaceSpacing >= 0.1 && surfaceSpacing <= 4))
@@ -61,13 +60,6 @@ const std::shared_ptr<const softgrain::Discretisation<2>>& SoftGrain::mesh()
         equivalentRadius_ = outline.scale();
         mesh_             = shared(outline, resolution, key);
     }
-    return mesh_;
-}
-
-Real SoftGrain::equivalentRadius()
-{
-    mesh();
-    return equivalentRadius_;
 }
 
 Real SoftGrain::area() { return mesh()->moments.volume * equivalentRadius() * equivalentRadius(); }

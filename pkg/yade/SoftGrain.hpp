@@ -12,9 +12,17 @@ namespace yade {
 class SoftGrain : public Shape {
 public:
     /// The discretisation, shared with all grains of the same form and resolution. Throws softgrain::UserError.
-    const std::shared_ptr<const softgrain::Discretisation<2>>& mesh();
+    const std::shared_ptr<const softgrain::Discretisation<2>>& mesh()
+    {
+        if (!mesh_) discretise();
+        return mesh_;
+    }
     /// Radius of the disc of the same area [m].
-    Real equivalentRadius();
+    Real equivalentRadius()
+    {
+        mesh();
+        return equivalentRadius_;
+    }
     int pointCount() { return mesh()->point_count(); }
     int surfaceCount() { return mesh()->surface_count(); }
     Real area();
@@ -49,6 +57,7 @@ public:
     REGISTER_CLASS_INDEX(SoftGrain, Shape);
 
 private:
+    void discretise();
     std::shared_ptr<const softgrain::Discretisation<2>> mesh_;
     Real equivalentRadius_ = NaN;
 };

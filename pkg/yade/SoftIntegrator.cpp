@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <omp.h>
+#include <utility>
 
 namespace yade {
 
@@ -67,15 +68,18 @@ void SoftIntegrator::advance(double dt)
 {
     Stopwatch watch(stageSeconds);
 
+    gatherLoads();
     assembly_->predict(dt, gravity.head<2>(), threads());
     watch.stage(0);
 
     gatherPairs();
     pose(dt);
-    if (fresh_) refuseOverlaps();
-    else
-        refuseLeaks();
-    fresh_ = false;
+    if (fresh_) {
+        refuseOverlaps();
+        for (SoftState* state : states_)
+            state->justPlaced = false;
+        fresh_ = false;
+    }
     watch.stage(1);
 
     solver_.tolerance  = tolerance;
@@ -89,24 +93,23 @@ void SoftIntegrator::advance(double dt)
 
     softgrain::EnergyBalance balance;
     softgrain::Assembly<2>::account(problem_, balance);
-    for (SoftState* state : states_) {
-        balance.external_work += dt * state->mass * gravity.dot(state->vel) / 2; // and as much again at the end of the step
+    for (SoftState* state : states_)
         std::fill(state->grain.surface.impulse.begin(), state->grain.surface.impulse.end(), 0.0);
-    }
-    externalWork += balance.external_work;
     frictionDissipation += balance.friction;
     contactDissipation += balance.contact_dissipation;
     deliver(dt);
+    hold(dt);
+    externalWork += balance.external_work + dt / 2 * powerOfLoads();
     assembly_->correct(dt, threads());
-    for (SoftState* state : states_) {
+    externalWork += dt / 2 * powerOfLoads();
+    for (SoftState* state : states_)
         state->publish();
-        externalWork += dt * state->mass * gravity.dot(state->vel) / 2;
-    }
     requestCollider();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
         evaluate();
-    }
+    } else if (minJ() < 0.9 * evaluatedJ_) // an impact shortens the stable step within a few steps
+        evaluate();
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
 }
@@ -119,15 +122,16 @@ void SoftIntegrator::adopt()
     std::vector<shared_ptr<Body>> now;
     for (const auto& body : *scene->bodies) {
         if (!softStateOf(*body)) continue;
-        if (unchanged && known < bodies_.size() && bodies_[known] == body && states_[known] == body->state.get()) ++known;
-        else
+        if (unchanged && known < bodies_.size() && bodies_[known] == body && states_[known] == body->state.get() && !states_[known]->outdated(*body)) {
+            fresh_ |= states_[known]->justPlaced; // moved by hand
+            ++known;
+        } else
             unchanged = false;
         if (!unchanged) break;
     }
     if (unchanged && known == bodies_.size()) return;
 
     requireSoftEngines(*scene);
-    if (scene->isPeriodic) throw std::runtime_error("SoftIntegrator: periodic scenes (O.periodic=True) are not supported for soft grains; use walls.");
     assembly_.reset();
     bodies_.clear();
     states_.clear();
@@ -137,8 +141,8 @@ void SoftIntegrator::adopt()
         SoftState* state = softStateOf(*body);
         if (!state) continue;
         state->prepare(*body);
+        if (state->outdated(*body)) state->renew(*body);
         fresh_ |= state->justPlaced;
-        state->justPlaced = false;
         if (body->clumpId >= 0)
             throw std::runtime_error("soft grain #" + std::to_string(body->id) + ": it belongs to a clump, and clumps are rigid; release it from the clump.");
         if (!body->bound)
@@ -202,6 +206,77 @@ void SoftIntegrator::refuseStranger(const Body& grain, Body::id_t otherId) const
             + ", and no functor knows their contact; soft grains touch soft grains, walls and boxes.");
 }
 
+/// Velocities set by hand; gravity and what O.forces holds for the grains.
+void SoftIntegrator::gatherLoads()
+{
+    scene->forces.sync();
+    loads_.resize(states_.size());
+    for (size_t i = 0; i < states_.size(); ++i) {
+        SoftState& state = *states_[i];
+        auto& grain      = state.grain;
+        if (state.touched()) state.heed();
+        externalWork += std::exchange(state.workByHand, 0);
+        const Vector3r &force = scene->forces.getForce(grain.id), &torque = scene->forces.getTorque(grain.id);
+        if (!force.allFinite() || !torque.allFinite() || force[2] != 0 || torque[0] != 0 || torque[1] != 0)
+            throw std::runtime_error(
+                    "soft grain #" + std::to_string(grain.id)
+                    + ": the force on it in O.forces has to be finite and in the xy-plane, the torque about z; soft grains stay in the plane.");
+        loads_[i]               = state.mass * gravity + Vector3r(force[0], force[1], torque[2]);
+        grain.acceleration      = force.head<2>() / state.mass;
+        grain.spin_acceleration = softgrain::rotation_rate(torque[2] / grain.motion.second_moment.trace());
+        const auto held = state.held();
+        for (int d = 0; d < 2; ++d)
+            if (held[d]) {
+                loads_[i][d]          = -state.contactLoad[d];
+                grain.acceleration[d] = loads_[i][d] / state.mass - gravity[d];
+            }
+        if (held[2]) {
+            loads_[i][2]            = -state.contactLoad[2];
+            grain.spin_acceleration = softgrain::rotation_rate(loads_[i][2] / grain.motion.second_moment.trace());
+        }
+    }
+}
+
+/// Blocked degrees of freedom keep the velocity that the state asks for, by a force on the whole grain: that of the contacts
+/// in the last step, which the solver has seen, and what lacks after this one.
+void SoftIntegrator::hold(double dt)
+{
+    for (size_t i = 0; i < states_.size(); ++i) {
+        SoftState& state = *states_[i];
+        const auto held  = state.held();
+        state.contactLoad.setZero();
+        if (!held[0] && !held[1] && !held[2]) continue;
+        auto& grain        = state.grain;
+        const auto& motion = grain.motion;
+        Vector3r impulse   = Vector3r::Zero();
+        for (int p = 0; p < grain.surface.count; ++p) {
+            const softgrain::Vec<2> arm = grain.surface.x(p) - motion.position;
+            const Real x = grain.surface.impulse[2 * p], y = grain.surface.impulse[2 * p + 1];
+            impulse += Vector3r(x, y, arm[0] * y - arm[1] * x);
+        }
+        const Real spread = motion.second_moment.trace();
+        const Vector3r inertias(state.mass, state.mass, spread);
+        const Vector3r now(motion.velocity[0], motion.velocity[1], motion.angular_momentum[0] / spread);
+        Vector3r lacking = Vector3r(state.vel[0], state.vel[1], state.angVel[2]) - now - (dt * loads_[i] + impulse).cwiseQuotient(inertias);
+        for (int k = 0; k < 3; ++k)
+            if (held[k]) state.contactLoad[k] = impulse[k] / dt;
+            else
+                lacking[k] = 0;
+        loads_[i] += inertias.cwiseProduct(lacking) / dt;
+        grain.add_velocity(lacking.head<2>(), softgrain::rotation_rate(lacking[2]));
+    }
+}
+
+Real SoftIntegrator::powerOfLoads() const
+{
+    Real sum = 0;
+    for (size_t i = 0; i < states_.size(); ++i) {
+        const auto& motion = states_[i]->grain.motion;
+        sum += loads_[i].dot(Vector3r(motion.velocity[0], motion.velocity[1], motion.angular_momentum[0] / motion.second_moment.trace()));
+    }
+    return sum;
+}
+
 /// All pairs in touch, by ascending ids of their bodies: the same order for every number of threads.
 void SoftIntegrator::gatherPairs()
 {
@@ -253,8 +328,11 @@ void SoftIntegrator::gatherPairs()
 void SoftIntegrator::pose(double dt)
 {
     problem_.contacts.clear();
-    for (const Pair& pair : pairs_)
+    constexpr Real most = 0.1; // penetration let pass [radius]
+    for (const Pair& pair : pairs_) {
+        const Real deepest = -most * pair.size();
         for (const auto& point : pair.geom->points()) {
+            if (point.gap < deepest && !fresh_) refuseLeak(pair, point);
             softgrain::Contact<2> contact;
             contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
             contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
@@ -271,12 +349,14 @@ void SoftIntegrator::pose(double dt)
             contact.impulse  = dt * point.force;
             problem_.contacts.push_back(contact);
         }
+    }
 }
 
-/// New grains must not overlap: contact would throw them apart.
+/// New grains must not overlap: contact would throw them apart. Those of a dense packing may, a little.
 void SoftIntegrator::refuseOverlaps() const
 {
     for (const Pair& pair : pairs_) {
+        if (!pair.second->justPlaced && !(pair.first && pair.first->justPlaced)) continue;
         const auto& second = pair.second->grain.surface;
         Real depth         = 0;
         for (const auto& point : pair.geom->points())
@@ -291,23 +371,18 @@ void SoftIntegrator::refuseOverlaps() const
         if (depth > 1e-3 * second.size)
             throw std::runtime_error(
                     "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by " + softgrain::shown(depth)
-                    + " m at the start; move them apart or make them smaller.");
+                    + " m where they were put; move them apart or make them smaller.");
     }
 }
 
 /// Surface points that got past each other: the answer is worth nothing from here on.
-void SoftIntegrator::refuseLeaks() const
+void SoftIntegrator::refuseLeak(const Pair& pair, const softgrain::ContactPoint<2>& point) const
 {
-    constexpr Real most = 0.1; // of the radius
-    for (const Pair& pair : pairs_) {
-        const Real deepest = -most * pair.size();
-        for (const auto& point : pair.geom->points())
-            if (point.gap < deepest)
-                throw softgrain::SimulationError(
-                        "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of its contact with body #"
-                        + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
-                        + " radii; likely causes: grains pressed beyond what their resolution can follow, or an impact near the wave speed.");
-    }
+    throw softgrain::SimulationError(
+            "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
+            + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
+            + " radii; likely causes: grains pressed beyond what their resolution can follow, an impact near the wave speed, or a body moved "
+              "by hand.");
 }
 
 /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
@@ -375,6 +450,7 @@ void SoftIntegrator::evaluate()
     adopt();
     if (!assembly_) return;
     assembly_->evaluate_stretch(threads());
+    evaluatedJ_  = minJ();
     criticalStep = std::numeric_limits<Real>::max();
     for (SoftState* state : states_)
         criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));

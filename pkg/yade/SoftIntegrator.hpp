@@ -36,7 +36,10 @@ public:
             GlobalEngine,
             "Advances all soft grains by one step: internal forces of the material points, contacts of all interactions by Contact Dynamics "
             "(non-linear Gauss-Seidel), symplectic Euler. Stands behind InteractionLoop and NewtonIntegrator in O.engines; moves no other "
-            "bodies. Reactions on walls and boxes are in O.forces after the step. 2D: forces, energies and masses are per metre of thickness.",
+            "bodies. Reactions on walls and boxes are in O.forces after the step. Forces and torques that other engines put on a grain through "
+            "O.forces act on it as a whole, spread over its mass as gravity is. With O.trackEnergy the sum of the soft entries of O.energy stays "
+            "what it was; NewtonIntegrator counts the grains once more, as rigid bodies, in kinetic and gravWork. 2D: forces, energies and "
+            "masses are per metre of thickness.",
             ((Vector3r, gravity, Vector3r::Zero(), , "Acceleration of all soft grains [m/s²]; its z component has to be 0."))(
                     (Real, tolerance, 1e-3, , "The contact solver stops when a sweep changes the impulses by less than this, relative [-]."))(
                     (Real,
@@ -48,7 +51,7 @@ public:
                     (int, maxSweeps, 1000, , "Most sweeps of the contact solver in a step [-]."))(
                     (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
                     (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
-                    (Real, externalWork, 0, Attr::readonly, "Work of driven bodies and gravity on the grains since the start [J/m]."))(
+                    (Real, externalWork, 0, Attr::readonly, "Work on the grains since the start [J/m]: of driven bodies, gravity, O.forces, blocked degrees of freedom, and of velocities set by hand."))(
                     (Real, frictionDissipation, 0, Attr::readonly, "Energy dissipated by friction since the start [J/m]."))(
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
@@ -92,23 +95,28 @@ private:
     void requireSaneAttributes() const;
     void requireStableStep();
     void refuseStranger(const Body& grain, Body::id_t otherId) const;
+    void gatherLoads();
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;
-    void refuseLeaks() const;
+    [[noreturn]] void refuseLeak(const Pair& pair, const softgrain::ContactPoint<2>& point) const;
     void deliver(double dt);
+    void hold(double dt);
+    Real powerOfLoads() const;
     void requestCollider() const;
     void trackEnergies();
     int threads() const;
 
     std::vector<shared_ptr<Body>> bodies_;
     std::vector<SoftState*> states_;
+    std::vector<Vector3r> loads_; ///< on each grain as a whole, besides contacts: x and y components [N/m], torque [N]
     std::vector<int> place_; ///< of a body, by id, among the soft ones
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
     std::vector<Pair> pairs_;
     softgrain::ContactProblem<2> problem_;
     softgrain::NonlinearGaussSeidel<2> solver_;
     bool fresh_ = false; ///< grains have come since the last step
+    Real evaluatedJ_ = 1; ///< smallest J when the stable step was evaluated
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);

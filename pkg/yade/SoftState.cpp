@@ -4,6 +4,9 @@
 #include "SoftGrain.hpp"
 #include "SoftMat.hpp"
 
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+
 namespace yade {
 
 YADE_PLUGIN((SoftState));
@@ -28,6 +31,19 @@ namespace {
                     values.push_back(item(i, j));
         return asBytes(values);
     }
+
+    void takeMaterial(const Body& body, softgrain::Grain<2>& grain)
+    {
+        const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
+        if (!material) throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
+        try {
+            grain.law = &material->law();
+        } catch (const softgrain::UserError& error) {
+            throw softgrain::UserError(whose(body.id) + ": " + error.what());
+        }
+        grain.parameters = material->lawParameters();
+        grain.density    = material->density;
+    }
 } // namespace
 
 SoftState* softStateOf(const Body& body)
@@ -42,21 +58,19 @@ SoftState* softStateOf(const Body& body)
 void SoftState::prepare(const Body& body)
 {
     if (prepared()) return;
-    const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
-    auto* shape          = static_cast<SoftGrain*>(body.shape.get());
-    if (!material) throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
+    auto* shape = static_cast<SoftGrain*>(body.shape.get());
     softgrain::Grain<2> fresh;
     try {
         fresh.mesh   = shape->mesh();
-        fresh.law    = &material->law();
         fresh.radius = shape->equivalentRadius();
     } catch (const softgrain::UserError& error) {
         throw softgrain::UserError(whose(body.id) + ": " + error.what());
     }
-    fresh.id         = body.id;
-    fresh.parameters = material->lawParameters();
-    fresh.density    = material->density;
-    if (nodeDisplacement.empty()) {
+    fresh.id = body.id;
+    takeMaterial(body, fresh);
+    const bool loaded = !nodeDisplacement.empty();
+    const Vector3r shift = pos - savedPos, kick = vel - savedVel, turn = angVel - savedAngVel; // by hand since loading
+    if (!loaded) {
         if (!pos.allFinite() || !vel.allFinite() || !angVel.allFinite())
             throw softgrain::UserError(whose(body.id) + ": its position or velocity is not finite; give finite numbers.");
         if (!(std::abs(ori.norm() - 1) < 1e-3) || !((ori * Vector3r::UnitZ() - Vector3r::UnitZ()).norm() < 1e-6))
@@ -64,9 +78,7 @@ void SoftState::prepare(const Body& body)
         if (vel[2] != 0 || angVel[0] != 0 || angVel[1] != 0)
             throw softgrain::UserError(whose(body.id) + ": its velocity has to lie in the xy-plane and its spin along z; soft grains stay in the plane.");
         origin = pos.head<2>();
-        softgrain::Mat<2> spin;
-        spin << 0, -angVel[2], angVel[2], 0;
-        fresh.place(origin, ori.toRotationMatrix().topLeftCorner<2, 2>(), vel.head<2>(), spin);
+        fresh.place(origin, ori.toRotationMatrix().topLeftCorner<2, 2>(), vel.head<2>(), softgrain::rotation_rate(angVel[2]));
         refPos = pos;
         refOri = ori;
         justPlaced = true;
@@ -85,17 +97,78 @@ void SoftState::prepare(const Body& body)
         fresh.surface.travel = travel;
     }
     grain   = fresh;
+    known_  = body.material;
     mass    = grain.mass();
     inertia = Vector3r::Constant(grain.motion.second_moment.trace());
     publish();
+    if (loaded) {
+        asked = { published.vel + kick, published.angVel + turn };
+        if (shift != Vector3r::Zero()) setPosition(pos + shift);
+    }
+}
+
+bool SoftState::outdated(const Body& body) const
+{
+    auto& shape = static_cast<SoftGrain&>(*body.shape);
+    if (shape.mesh() != grain.mesh || shape.equivalentRadius() != grain.radius)
+        throw softgrain::UserError(whose(body.id) + ": its shape was changed, which a deformed grain cannot follow; erase the body and append a new one.");
+    if (body.material != known_) return true;
+    const auto& material = static_cast<const SoftMat&>(*known_);
+    return material.density != grain.density || material.lawParameters() != grain.parameters;
+}
+
+void SoftState::renew(const Body& body)
+{
+    takeMaterial(body, grain);
+    known_  = body.material;
+    mass    = grain.mass();
+    grain.refresh();
+    inertia = Vector3r::Constant(grain.motion.second_moment.trace());
+}
+
+void SoftState::setPosition(const Vector3r& value)
+{
+    if (runs()) {
+        if (!value.allFinite()) throw softgrain::UserError(whose(grain.id) + ": its position was set to what is not finite; give finite numbers.");
+        grain.translate(value.head<2>() - grain.motion.position);
+        origin     = grain.origin;
+        justPlaced = Omega::instance().getScene()->doSort = true;
+    }
+    pos = value;
+}
+
+void SoftState::setOrientation(const Quaternionr& value)
+{
+    if (runs() && !(std::abs(value.dot(ori)) > 1 - 1e-9))
+        throw softgrain::UserError(whose(grain.id) + ": a deformed grain cannot be turned by hand; set its ori before the first step, or its angVel.");
+    ori = value;
+}
+
+void SoftState::heed()
+{
+    if (!asked.vel.allFinite() || !asked.angVel.allFinite() || asked.vel[2] != 0 || asked.angVel[0] != 0 || asked.angVel[1] != 0)
+        throw softgrain::UserError(whose(grain.id) + ": its velocity has to be finite and in the xy-plane, its spin about z; soft grains stay in the plane.");
+    const Plane kick  = (asked.vel - published.vel).head<2>();
+    const Real turn   = asked.angVel[2] - published.angVel[2];
+    const auto before = grain.motion;
+    grain.add_velocity(kick, softgrain::rotation_rate(turn));
+    grain.refresh();
+    for (int i = 0; i < 2; ++i) // blocked ones ask for these from now on
+        if (asked.vel[i] != published.vel[i]) vel[i] = asked.vel[i];
+    if (turn != 0) angVel[2] = asked.angVel[2];
+    published = asked;
+    workByHand += mass * kick.dot(before.velocity + kick / 2) + turn * (before.angular_momentum[0] + turn * before.second_moment.trace() / 2);
 }
 
 void SoftState::publish()
 {
     const auto& motion = grain.motion;
     pos.head<2>()      = motion.position;
-    vel                = Vector3r(motion.velocity[0], motion.velocity[1], 0);
-    angVel             = Vector3r(0, 0, motion.angular_momentum[0] / motion.second_moment.trace());
+    for (int d = 0; d < 2; ++d)
+        if (!(blockedDOFs & axisDOF(d))) vel[d] = motion.velocity[d];
+    if (!(blockedDOFs & DOF_RZ)) angVel[2] = motion.angular_momentum[0] / motion.second_moment.trace();
+    vel[2] = angVel[0] = angVel[1] = 0;
+    asked = published = { vel, angVel };
     // rotation of the polar decomposition in the plane
     const auto& F = motion.mean_gradient;
     const Real c = F(0, 0) + F(1, 1), s = F(1, 0) - F(0, 1), size = std::sqrt(c * c + s * s);
@@ -104,9 +177,18 @@ void SoftState::publish()
     ori.normalize();
 }
 
+/// Has a grain, or gets it now if it was loaded.
+bool SoftState::runs()
+{
+    if (!prepared() && !nodeDisplacement.empty())
+        for (const auto& body : *Omega::instance().getScene()->bodies)
+            if (softStateOf(*body) == this) prepare(*body);
+    return prepared();
+}
+
 softgrain::Grain<2>& SoftState::current()
 {
-    if (!prepared())
+    if (!runs())
         throw softgrain::UserError("this SoftState belongs to no running scene yet: append its body to O.bodies and run a step first.");
     grain.pull();
     return grain;
@@ -115,6 +197,10 @@ softgrain::Grain<2>& SoftState::current()
 void SoftState::preSave(SoftState&)
 {
     if (!prepared()) return;
+    savedPos    = pos;
+    savedVel    = vel;
+    savedAngVel = angVel;
+    if (touched()) heed();
     grain.pull();
     nodeDisplacement = grain.displacement;
     nodeVelocity     = grain.velocity;

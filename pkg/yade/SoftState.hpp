@@ -5,6 +5,8 @@
 
 #include "step/grain.hpp"
 
+#include <array>
+
 namespace yade {
 
 class SoftState : public State {
@@ -16,9 +18,35 @@ public:
     /// fields; once done costs nothing. Throws softgrain::UserError.
     void prepare(const Body& body);
     bool prepared() const { return grain.mesh != nullptr; }
-    /// Copies the grain's rigid motion into pos, vel, ori, angVel.
+    /// The body's material is not what the grain was set up with. Throws softgrain::UserError when the shape is not.
+    bool outdated(const Body& body) const;
+    /// Takes the body's material as it is now; the grain must not be in an assembly. Throws softgrain::UserError.
+    void renew(const Body& body);
+    /// Copies the grain's rigid motion into pos, vel, ori, angVel; blocked velocities stay what they are asked to be.
     void publish();
+    /// A velocity was set by hand since publish().
+    bool touched() const { return asked.vel != published.vel || asked.angVel != published.angVel; }
+    /// Changes the grain's velocity by that.
+    void heed();
+    /// Whether the motions along x and y and about z are blocked.
+    std::array<bool, 3> held() const { return { bool(blockedDOFs & DOF_X), bool(blockedDOFs & DOF_Y), bool(blockedDOFs & DOF_RZ) }; }
     void preSave(SoftState&);
+
+    // what Python sees of State: other engines (NewtonIntegrator) change vel and angVel themselves
+    Vector3r& velocity() { return prepared() ? asked.vel : vel; }
+    Vector3r& spin() { return prepared() ? asked.angVel : angVel; }
+    void setVelocity(const Vector3r& value) { velocity() = vel = value; }
+    void setSpin(const Vector3r& value) { spin() = angVel = value; }
+    Vector3r position() const { return pos; }
+    Quaternionr orientation() const { return ori; }
+    void setPosition(const Vector3r& value);
+    void setOrientation(const Quaternionr& value);
+    Se3r placement() const { return Se3r(pos, ori); }
+    void setPlacement(const Se3r& value)
+    {
+        setOrientation(value.orientation);
+        setPosition(value.position);
+    }
 
     boost::python::object pointPositions();
     boost::python::object pointVelocities();
@@ -35,11 +63,21 @@ public:
             SoftState,
             State,
             "State of a :yref:`SoftGrain`. pos, vel are those of the centre of mass, ori, angVel the rotation in the mean deformation "
-            "gradient's polar decomposition and the angular momentum over the moment of inertia; renewed every step, in the xy-plane. "
+            "gradient's polar decomposition and the angular momentum over the moment of inertia; renewed every step, in the xy-plane. pos, vel, "
+            "angVel can be set at any time; blockedDOFs of x, y, Z keep the velocity that is set, of the grain as a whole. "
             "Arrays come as bytes of float64; softgrain.points(body) and its like give them as numpy arrays.",
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(
+                    (Vector3r, savedPos, Vector3r::Zero(), Attr::hidden, "What pos held when saved [m]."))(
+                    (Vector3r, savedVel, Vector3r::Zero(), Attr::hidden, "What vel held when saved [m/s]."))(
+                    (Vector3r, savedAngVel, Vector3r::Zero(), Attr::hidden, "What angVel held when saved [rad/s]."))(
+                    (Vector3r,
+                     contactLoad,
+                     Vector3r::Zero(),
+                     Attr::hidden,
+                     "Contact force along x and y [N/m] and torque [N] in the last step, where these are blocked."))(
+                    (Real, workByHand, 0, Attr::hidden, "Work of velocities set by hand that has not been accounted for [J/m]."))(
                     (Real, travel, 0, Attr::hidden, "Bound on the path of any surface point since the start [m]."))(
                     (int, format, 1, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),
@@ -52,11 +90,34 @@ public:
                     .def("area", &SoftState::area, "Current area [m²].")
                     .def("minJ", &SoftState::minJ, "Smallest volume ratio J = det F of a material point [-].")
                     .def("elasticEnergy", &SoftState::elasticEnergy, "Elastic energy [J/m].")
-                    .def("kineticEnergy", &SoftState::kineticEnergy, "Kinetic energy, of deformation too [J/m]."));
+                    .def("kineticEnergy", &SoftState::kineticEnergy, "Kinetic energy, of deformation too [J/m].")
+                    .add_property("pos", &SoftState::position, &SoftState::setPosition, "Centre of mass [m]; setting it moves the grain as it is.")
+                    .add_property(
+                            "ori",
+                            &SoftState::orientation,
+                            &SoftState::setOrientation,
+                            "Rotation in the polar decomposition of the mean deformation gradient; to be set before the first step only.")
+                    .add_property("se3", &SoftState::placement, &SoftState::setPlacement, "pos and ori.")
+                    .add_property(
+                            "vel",
+                            boost::python::make_function(&SoftState::velocity, boost::python::return_internal_reference<>()),
+                            &SoftState::setVelocity,
+                            "Velocity of the centre of mass [m/s]; setting it changes the velocity of every point by the difference.")
+                    .add_property(
+                            "angVel",
+                            boost::python::make_function(&SoftState::spin, boost::python::return_internal_reference<>()),
+                            &SoftState::setSpin,
+                            "Angular momentum over the moment of inertia [rad/s]; setting it adds the difference as a rigid spin."));
     REGISTER_CLASS_INDEX(SoftState, State);
 
 private:
+    struct Velocities {
+        Vector3r vel = Vector3r::Zero(), angVel = Vector3r::Zero();
+    } published, asked; ///< by publish(), and by Python since
+    shared_ptr<const Material> known_; ///< that the grain was set up with
+
     softgrain::Grain<2>& current();
+    bool runs();
 };
 REGISTER_SERIALIZABLE(SoftState);
 

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Soft grains as YADE's own bodies: save, load, reload, erase, several scenes, PyRunner, O.run, O.trackEnergy."""
+"""Soft grains as YADE's own bodies: save, load, reload, erase, several scenes, PyRunner, plot, O.run, O.trackEnergy.
+(yade-batch: test_batch.py.)"""
+import builtins
 import os
 import sys
+import time
 
 import numpy
-from yade import O
+from yade import O, plot
 from yade.wrapper import FrictMat, PyRunner
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
@@ -36,6 +39,11 @@ def everything(top):
     parts.append([O.bodies[top].state.pos[1] / WIDTH, O.time * SPEED / WIDTH, soft.externalWork, soft.elasticEnergy(),
                   soft.kineticEnergy(), soft.frictionDissipation, soft.contactDissipation, O.forces.f(top)[1] / 1e6])
     return numpy.concatenate(parts)
+
+
+def run(steps):
+    for _ in range(steps):
+        O.step()
 
 
 def continued_equals_uninterrupted(checks):
@@ -90,6 +98,170 @@ def grains_can_be_erased_and_added(checks):
     checks.that("added", len(measures.softBodies()) == before)
 
 
+def saved_in_memory(checks):
+    for step in (300, 310):     # with and without a new time step in the next one
+        top = compaction_scene()
+        run(step)
+        O.saveTmp("mark", quiet=True)
+        run(200)
+        expected = everything(top)
+        for attempt in ("first", "second"):
+            O.loadTmp("mark", quiet=True)
+            run(200)
+            difference = abs(everything(top) - expected).max()
+            checks.that(f"loadTmp at {step}, {attempt} time", difference < 1e-9, difference)
+    O.loadTmp("mark", quiet=True)
+    O.bodies.erase(3)
+    run(100)
+    with Folder() as folder:
+        path = os.path.join(folder, "erased.yade")
+        O.save(path, quiet=True)
+        run(100)
+        expected = everything(top)
+        O.load(path, quiet=True)
+        run(100)
+        difference = abs(everything(top) - expected).max()
+        checks.that("a scene with a gap in its ids", O.bodies[3] is None and difference < 1e-9, difference)
+
+
+def a_dense_scene_can_be_loaded(checks):
+    """Grains pressed into each other have penetrations that no fresh scene may have."""
+    top = compaction_scene()
+    while measures.solidFraction(WIDTH * O.bodies[top].state.pos[1]) < 0.99:
+        run(50)
+    O.saveTmp(quiet=True)
+    run(20)
+    expected = everything(top)
+    O.loadTmp(quiet=True)
+    run(20)
+    checks.close_to("goes on", abs(everything(top) - expected).max(), 0, 1e-9)
+    soft = measures.softIntegrator()
+    soft.maxSweeps, soft.recovery = 1, 0    # contacts badly solved: deeper than a new grain may lie
+    while soft.maxPenetration() < 2e-3:
+        run(10)
+    O.bodies.append(softDisc((20e-3, 20e-3), 1e-3, 0, points=60))
+    run(20)
+    checks.that("and takes another grain in", len(measures.softBodies()) == 16)
+
+
+def bodies_come_and_go_while_it_runs(checks):
+    def change():
+        if O.iter == 200:
+            O.bodies.erase(3)
+        if O.iter == 400:
+            O.bodies.append(softDisc((4e-3, 30e-3), 1e-3, 0, points=60))
+        if O.iter == 600:
+            O.bodies.erase(0)
+
+    builtins.change = change
+    compaction_scene([PyRunner(command="change()", iterPeriod=1)])
+    O.run(800, True)
+    checks.that("O.run", O.iter == 800)
+    checks.that("two gone, one come", len(measures.softBodies()) == 14 and O.bodies[0] is None and O.bodies[3] is None)
+    for body in measures.softBodies():
+        O.bodies.erase(body.id)
+    run(60)
+    checks.that("no grain left", measures.softIntegrator().elasticEnergy() == 0)
+
+
+def run_in_the_background_equals_steps(checks):
+    top = compaction_scene()
+    run(500)
+    expected = everything(top)
+    top = compaction_scene()
+    O.run(500)
+    O.wait()
+    checks.that("the same to the last digit", (everything(top) == expected).all())
+    compaction_scene()
+    O.run()
+    while O.iter == 0:
+        time.sleep(0.01)
+    reads = 0
+    while O.iter < 1000 and reads < 10000:
+        soft = measures.softIntegrator()
+        soft.contacts(), soft.solidArea(), soft.kineticEnergy(), [arrays.points(b) for b in measures.softBodies()]
+        reads += 1
+    O.pause()
+    O.wait()
+    checks.that("can be read while it runs", O.iter >= 1000 and reads > 0, (O.iter, reads))
+    stopped = O.iter
+    O.stopAtIter = stopped + 20
+    O.run()
+    O.wait()
+    checks.that("O.stopAtIter", O.iter == stopped + 20)
+
+
+def an_error_in_the_background_is_kept_for_wait(checks):
+    compaction_scene([PyRunner(command="import time; time.sleep(0.3)", iterPeriod=10, firstIterRun=10)])
+    run(2)
+    O.run()
+    measures.softIntegrator().tolerance = -1
+    checks.raises("O.wait", RuntimeError, ["tolerance", "-1"], O.wait)
+    measures.softIntegrator().tolerance = 1e-3
+    stopped = O.iter
+    run(10)
+    checks.that("goes on when mended", O.iter == stopped + 10)
+
+
+def sub_steps(checks):
+    top = compaction_scene()
+    run(40)
+    expected = everything(top)
+    top = compaction_scene()
+    run(10)
+    O.subStepping = True
+    while O.iter < 20:
+        O.step()
+    O.subStepping = False
+    while O.iter < 40:
+        O.step()
+    checks.that("O.subStepping changes nothing", abs(everything(top) - expected).max() < 1e-12)
+
+
+def plots(checks):
+    def record():
+        plot.addData(t=O.time, elastic=measures.softIntegrator().elasticEnergy(), force=O.forces.f(builtins.top)[1])
+
+    builtins.record = record
+    plot.reset()
+    builtins.top = compaction_scene([PyRunner(command="record()", iterPeriod=50)])
+    O.run(1000, True)
+    checks.that("plot.addData", len(plot.data["t"]) in (19, 20) and max(plot.data["force"]) > 0, plot.data["force"])
+    with Folder() as folder:
+        path = os.path.join(folder, "data.txt")
+        plot.saveDataTxt(path)
+        checks.that("plot.saveDataTxt", numpy.loadtxt(path).shape == (len(plot.data["t"]), 3))
+    plot.reset()
+
+
+def energies_are_tracked(checks):
+    def soft_sum():
+        return sum(value for name, value in O.energy.items() if name.startswith("soft"))
+
+    compaction_scene()
+    O.trackEnergy = True
+    run(1200)
+    work = -dict(O.energy.items())["softExternalWork"]
+    checks.that("the sum of O.energy's soft entries vanishes", abs(soft_sum()) < 0.01 * work, O.energy.items())
+
+    def record():
+        plot.addData(i=O.iter, soft=soft_sum(), **O.energy)
+
+    builtins.record = record
+    plot.reset()
+    O.reset()
+    O.trackEnergy = True
+    O.materials.append(NeoHookeanMat(frictionAngle=0.2))
+    O.bodies.append([softDisc((0, 0), 1e-3, points=60, velocity=(1, -1, 0)), softBox(1, 1, FrictMat(frictionAngle=0.2))[2]])
+    O.bodies[0].state.pos = (0, 1.1e-3, 0)
+    O.engines = softEngines(gravity=(0, -1000, 0), more=[PyRunner(command="record()", iterPeriod=50)])
+    O.run(1500, True)
+    sums = plot.data["soft"]
+    checks.that("with gravity it stays", numpy.ptp(sums) < 2e-3 * sums[0] and O.forces.f(1)[1] <= 0, sums)
+    checks.that("plot.addData(**O.energy)", len(plot.data["softFriction"]) == len(sums) and plot.data["softFriction"][-1] > 0)
+    plot.reset()
+
+
 def scenes_do_not_disturb_each_other(checks):
     top = compaction_scene()
     for _ in range(100):
@@ -115,7 +287,6 @@ def scenes_do_not_disturb_each_other(checks):
 
 def engines_of_yade_work_along(checks):
     top = compaction_scene([PyRunner(command="seen.append(O.iter)", iterPeriod=20)])
-    import builtins
     builtins.seen = []
     O.trackEnergy = True
     O.run(200, True)
@@ -145,5 +316,7 @@ def bodies_move_as_bodies(checks):
     checks.close_to("mass of the disc", disc.mass, 1000 * numpy.pi * 1e-6, 1e-12)
 
 
-run_tests(continued_equals_uninterrupted, reload_begins_anew, grains_can_be_erased_and_added,
-          scenes_do_not_disturb_each_other, engines_of_yade_work_along, bodies_move_as_bodies)
+run_tests(continued_equals_uninterrupted, reload_begins_anew, saved_in_memory, a_dense_scene_can_be_loaded,
+          grains_can_be_erased_and_added, bodies_come_and_go_while_it_runs, scenes_do_not_disturb_each_other,
+          run_in_the_background_equals_steps, an_error_in_the_background_is_kept_for_wait, sub_steps, plots,
+          energies_are_tracked, engines_of_yade_work_along, bodies_move_as_bodies)

@@ -23,6 +23,17 @@ namespace {
                                 "resolution can follow, or an impact near the wave speed.");
     }
 
+    template <int Dim> [[noreturn]] void report_not_finite(const Grain<Dim>& grain)
+    {
+        const auto x = grain.point_positions(), v = grain.point_velocities();
+        int first = 0;
+        while (first + 1 < int(x.size()) && x[first].allFinite() && v[first].allFinite())
+            ++first;
+        throw SimulationError(whose(grain.id) + ": the motion of material point " + std::to_string(first)
+                              + " is no longer a finite number (kinetic energy " + shown(grain.motion.kinetic)
+                              + " J); likely causes: a time step over the stable limit or a body moved by hand.");
+    }
+
 } // namespace
 
 template <int Dim>
@@ -85,16 +96,18 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         const int lanes = batch.lanes;
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
-            members_[b][lane]->min_J = batch.per_lane[lane];
+            Grain<Dim>& grain = *members_[b][lane];
+            grain.min_J = batch.per_lane[lane];
             for (int d = 0; d < Dim; ++d)
-                batch.gain[d * lanes + lane] = dt * gravity[d] / members_[b][lane]->radius;
+                batch.gain[d * lanes + lane] = dt * (gravity[d] + grain.acceleration[d]) / grain.radius;
+            grain.surface.velocity_before.swap(grain.surface.velocity); // filled below
+            if (grain.spin_acceleration != Mat<Dim>::Zero()) grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
         }
         motion_kernels<Dim>().kick[batch.wide()](batch.data(), dt, batch.gain.data());
         const double* values = batch.surface();
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             Surface<Dim>& surface = grain.surface;
-            surface.velocity_before.swap(surface.velocity);
             for (size_t i = 0; i < surface.velocity.size(); ++i)
                 surface.velocity[i] = grain.radius * values[i * lanes + lane];
         }
@@ -148,15 +161,15 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
             grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
         }
     }
-    for (const Grain<Dim>* grain : grains_) {
+    for (Grain<Dim>* grain : grains_) {
+        if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite()) {
+            grain->pull();
+            report_not_finite(*grain);
+        }
         if (grain->surface.speed * dt > 0.5 * grain->surface.size)
             throw SimulationError(whose(grain->id) + ": it moves " + shown(grain->surface.speed * dt / grain->surface.size)
                                   + " radii in one step, so that it could pass through other bodies; slow it down (speed "
                                   + shown(grain->surface.speed) + " m/s) or take a smaller time step.");
-        if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite())
-            throw SimulationError(whose(grain->id) + ": its motion is no longer a finite number (kinetic energy "
-                                  + shown(grain->motion.kinetic)
-                                  + " J); likely causes: a time step over the stable limit or a body moved by hand.");
     }
 }
 

@@ -109,6 +109,38 @@ template <int Dim> void Grain<Dim>::pull()
     }
 }
 
+template <int Dim> void Grain<Dim>::put()
+{
+    if (!batch) return;
+    for (size_t i = 0; i < displacement.size(); ++i) {
+        batch->displacement[i * batch->lanes + lane] = displacement[i];
+        batch->velocity[i * batch->lanes + lane] = velocity[i];
+    }
+}
+
+template <int Dim> void Grain<Dim>::translate(const Vec<Dim>& shift)
+{
+    origin += shift;
+    motion.position += shift;
+    for (int p = 0; p < surface.count; ++p)
+        Eigen::Map<Vec<Dim>>(&surface.position[size_t(Dim) * p]) += shift;
+    surface.travel += shift.norm();
+    surface.bound();
+}
+
+template <int Dim> void Grain<Dim>::add_velocity(const Vec<Dim>& of_centre, const Mat<Dim>& gradient)
+{
+    pull();
+    const Vec<Dim> centre = (motion.position - origin) / radius;
+    for (int i = 0; i < mesh->master_count; ++i) {
+        const Eigen::Map<const Vec<Dim>> u(&displacement[size_t(Dim) * i]);
+        Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * i]) += of_centre / radius + gradient * (mesh->node_position[i] + u - centre);
+    }
+    put();
+    for (int p = 0; p < surface.count; ++p)
+        surface.v(p) += of_centre + gradient * (surface.x(p) - motion.position);
+}
+
 template <int Dim> std::vector<Mat<Dim>> Grain<Dim>::deformation_gradients() const
 {
     constexpr int stencil = Discretisation<Dim>::stencil;

@@ -30,6 +30,8 @@ template <int Dim> struct Grain {
     std::vector<double> displacement, velocity;       ///< of the masters, [node][Dim] [radius], [radius/s]
     Surface<Dim> surface;
     Motion<Dim> motion;
+    Vec<Dim> acceleration = Vec<Dim>::Zero();      ///< by forces on the grain as a whole, besides gravity [m/s2]
+    Mat<Dim> spin_acceleration = Mat<Dim>::Zero(); ///< by torques on it, rate of a velocity gradient [1/s2]
     double min_J = 1, min_stretch = 1, elastic = 0;   ///< elastic energy [J], as of the last evaluation
 
     double mass() const { return density * mesh->moments.volume * std::pow(radius, Dim); }
@@ -39,6 +41,10 @@ template <int Dim> struct Grain {
                const Mat<Dim>& velocity_gradient);
     /// Surface and motion from the node fields held here.
     void refresh();
+    /// Moves the grain as it is.
+    void translate(const Vec<Dim>& shift);
+    /// Adds a rigid motion to the velocities of nodes and surface: of the centre of mass [m/s], and about it [1/s].
+    void add_velocity(const Vec<Dim>& of_centre, const Mat<Dim>& gradient);
     /// Current positions of the material points, [point] [m].
     std::vector<Vec<Dim>> point_positions() const;
     /// Deformation gradients at the material points.
@@ -54,12 +60,17 @@ template <int Dim> struct Grain {
     int lane = 0;
     /// Brings the node fields from the batch, if there is one.
     void pull();
+    /// Hands them back.
+    void put();
 
 private:
     Batch<Dim> alone() const;
     std::vector<Vec<Dim>> at_points(const std::vector<double>& field) const;
     std::vector<double> with_slaves(const std::vector<double>& field) const;
 };
+
+/// Velocity gradient of a rotation in the plane [1/s].
+inline Mat<2> rotation_rate(double spin) { return (Mat<2>() << 0, -spin, spin, 0).finished(); }
 
 /// Motion from the sums of MotionKernels::observe; `stride` apart in the array.
 template <int Dim> Motion<Dim> motion_of(const Grain<Dim>& grain, const double* sums, int stride);

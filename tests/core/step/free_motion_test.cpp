@@ -189,7 +189,36 @@ TEST(FreeFlight, StopsAtValuesThatAreNotFinite)
                 (velocity ? grain.velocity : grain.displacement)[7] = bad;
                 const std::string message = failure(world, 1e-8);
                 EXPECT_NE(message.find("#" + std::to_string(count - 1)), std::string::npos) << message << bad << velocity;
+                EXPECT_NE(message.find("material point "), std::string::npos) << message << bad << velocity;
             }
+}
+
+// Forces and torques on a grain as a whole, and velocities added by hand, are rigid: v = dt a + u, and an angular momentum
+// of I (dt alpha + w) about the centre; with I constant while nothing moves far, to O(dt w).
+TEST(FreeFlight, TakesForcesTorquesAndVelocities)
+{
+    for (int count : { 1, 5 }) {
+        World world;
+        add_grains(world, count);
+        constexpr double dt = 1e-8, alpha = 3e9, w = 40;
+        world.step(dt);
+        Grain<2>& grain = world.grains.back();
+        grain.acceleration = Vec<2>(1e7, -2e7);
+        grain.spin_acceleration = spin(alpha);
+        grain.add_velocity(Vec<2>(3, 4), spin(w));
+        world.step(dt);
+        const double inertia = grain.motion.second_moment.trace();
+        EXPECT_LE((grain.motion.velocity - Vec<2>(3.1, 3.8)).norm(), 1e-12);
+        EXPECT_NEAR(grain.motion.angular_momentum[0] / inertia, w + dt * alpha, 1e-6 * w);
+        for (int i = 0; i < count - 1; ++i)
+            EXPECT_EQ(world.grains[i].motion.kinetic, 0);
+        const Vec<2> place = grain.motion.position, corner = grain.surface.x(0);
+        grain.translate(Vec<2>(0.5, -0.25));
+        EXPECT_LE((grain.surface.x(0) - corner - Vec<2>(0.5, -0.25)).norm(), 1e-15);
+        world.step(dt);
+        const Vec<2> flight = dt * grain.motion.velocity;
+        EXPECT_LE((grain.motion.position - place - Vec<2>(0.5, -0.25) - flight).norm(), 1e-14);
+    }
 }
 
 TEST(FreeFlight, StopsAtAStepOverTheStableLimit)
