@@ -160,13 +160,13 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=0.8, tolerance=1e-3, maxSweep
         wrapper.ForceResetter(),
         wrapper.InsertionSortCollider(
             [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb()], verletDist=verletDist),
+        *steppers,  # InteractionLoop looks ahead by the time step
         wrapper.InteractionLoop(
             [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),
              wrapper.Ig2_Box_SoftGrain_SoftGeom()],
             [wrapper.Ip2_SoftMat_SoftMat_SoftPhys(**_friction("friction", friction)),
              wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction))],
             [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics()]),
-        *steppers,
         wrapper.NewtonIntegrator(damping=0, gravity=Vector3(*gravity)),
         wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps),
         *more,

@@ -107,6 +107,8 @@ void SoftIntegrator::advance(double dt)
     requestCollider();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
+        for (const Pair& pair : pairs_)
+            refuseLeak(pair, pair.overlap(), 0.5); // between the contact points some is left, the more the coarser the grain
         evaluate();
     } else if (minJ() < 0.9 * evaluatedJ_) // an impact shortens the stable step within a few steps
         evaluate();
@@ -328,11 +330,9 @@ void SoftIntegrator::gatherPairs()
 void SoftIntegrator::pose(double dt)
 {
     problem_.contacts.clear();
-    constexpr Real most = 0.1; // penetration let pass [radius]
-    for (const Pair& pair : pairs_) {
-        const Real deepest = -most * pair.size();
+    for (const Pair& pair : pairs_)
         for (const auto& point : pair.geom->points()) {
-            if (point.gap < deepest && !fresh_) refuseLeak(pair, point);
+            if (!fresh_) refuseLeak(pair, -point.gap, 0.1);
             softgrain::Contact<2> contact;
             contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
             contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
@@ -349,7 +349,6 @@ void SoftIntegrator::pose(double dt)
             contact.impulse  = dt * point.force;
             problem_.contacts.push_back(contact);
         }
-    }
 }
 
 /// New grains must not overlap: contact would throw them apart. Those of a dense packing may, a little.
@@ -375,12 +374,13 @@ void SoftIntegrator::refuseOverlaps() const
     }
 }
 
-/// Surface points that got past each other: the answer is worth nothing from here on.
-void SoftIntegrator::refuseLeak(const Pair& pair, const softgrain::ContactPoint<2>& point) const
+/// Bodies that got past each other: the answer is worth nothing from here on. `most` in radii.
+void SoftIntegrator::refuseLeak(const Pair& pair, Real depth, Real most) const
 {
+    if (depth <= most * pair.size()) return;
     throw softgrain::SimulationError(
-            "soft grain #" + std::to_string(pair.id2) + ": surface point " + std::to_string(point.point) + " of the contact with body #"
-            + std::to_string(pair.id1) + " has sunk in by " + softgrain::shown(-point.gap / pair.size())
+            "soft grain #" + std::to_string(pair.id2) + " and body #" + std::to_string(pair.id1) + " have sunk into each other by "
+            + softgrain::shown(depth / pair.size())
             + " radii; likely causes: grains pressed beyond what their resolution can follow, an impact near the wave speed, or a body moved "
               "by hand.");
 }

@@ -70,7 +70,7 @@ public:
                     .def("minJ", &SoftIntegrator::minJ, "Smallest volume ratio of a material point at the start of the last step [-].")
                     .def("maxPenetration",
                          &SoftIntegrator::maxPenetration,
-                         "Deepest penetration at the start of the last step [radius of the smaller grain].")
+                         "Deepest penetration of a contact point at the start of the last step [radius of the smaller grain].")
                     .def("residual",
                          &SoftIntegrator::residual,
                          "Residual of the last step's contact problem: ||r - P_K(r - u - μ|uₜ|n)|| / max(|q|, |r|, |u|), as Siconos defines it [-].")
@@ -87,6 +87,8 @@ private:
         SoftState* second;
         const State* rigid;
         int body1, body2; ///< places in the contact problem; body1 -1: a plane
+        /// Largest depth of any point of either grain in the other [m].
+        Real overlap() const { return first ? softgrain::overlap(first->grain.surface, second->grain.surface) : 0; }
         /// Radius of the smaller grain.
         Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
     };
@@ -99,7 +101,7 @@ private:
     void gatherPairs();
     void pose(double dt);
     void refuseOverlaps() const;
-    [[noreturn]] void refuseLeak(const Pair& pair, const softgrain::ContactPoint<2>& point) const;
+    void refuseLeak(const Pair& pair, Real depth, Real most) const;
     void deliver(double dt);
     void hold(double dt);
     Real powerOfLoads() const;

@@ -84,10 +84,10 @@ void SoftState::prepare(const Body& body)
         justPlaced = true;
     } else {
         const size_t expected = 2 * size_t(fresh.mesh->master_count);
-        if (format != 1 || nodeDisplacement.size() != expected || nodeVelocity.size() != expected)
+        if (format != currentFormat || nodeDisplacement.size() != expected || nodeVelocity.size() != expected)
             throw softgrain::UserError(
                     whose(body.id) + ": its saved state (format " + std::to_string(format) + ", " + std::to_string(nodeDisplacement.size())
-                    + " values) is of another version of softgrain, which expects format 1 and " + std::to_string(expected)
+                    + " values) is of another version of softgrain, which expects format " + std::to_string(currentFormat) + " and " + std::to_string(expected)
                     + " values; load it with the version that saved it.");
         fresh.origin       = origin;
         fresh.displacement = nodeDisplacement;

@@ -11,6 +11,7 @@ namespace yade {
 
 class SoftState : public State {
 public:
+    static constexpr int currentFormat = 2; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
 
@@ -79,7 +80,7 @@ public:
                      "Contact force along x and y [N/m] and torque [N] in the last step, where these are blocked."))(
                     (Real, workByHand, 0, Attr::hidden, "Work of velocities set by hand that has not been accounted for [J/m]."))(
                     (Real, travel, 0, Attr::hidden, "Bound on the path of any surface point since the start [m]."))(
-                    (int, format, 1, Attr::hidden, "Version of the saved fields [-].")),
+                    (int, format, currentFormat, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),
             .def("pointPositions", &SoftState::pointPositions, "Current positions of the material points, (points, 2) [m].")
                     .def("pointVelocities", &SoftState::pointVelocities, "Velocities of the material points, (points, 2) [m/s].")

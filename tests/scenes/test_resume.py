@@ -93,7 +93,7 @@ def squeeze_interrupted(checks):
 
 
 def rigid_compaction_terminated(checks):
-    resumed_equals_uninterrupted(checks, "rigid_compaction", signal.SIGTERM, 20)
+    resumed_equals_uninterrupted(checks, "rigid_compaction", signal.SIGTERM, 10)
 
 
 def a_finished_run_goes_on_to_a_higher_end(checks):

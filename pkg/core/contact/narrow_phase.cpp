@@ -82,6 +82,20 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
     points.assign(fresh.begin(), fresh.end());
 }
 
+template <int Dim> double overlap(const Surface<Dim>& first, const Surface<Dim>& second)
+{
+    double deepest = 0;
+    for (bool swapped : { false, true }) {
+        const Surface<Dim>&mine = swapped ? second : first, &other = swapped ? first : second;
+        for (int p = 0; p < mine.count; ++p) {
+            const Vec<Dim> x = mine.x(p);
+            if ((x.array() < other.min.array()).any() || (x.array() > other.max.array()).any()) continue;
+            deepest = std::max(deepest, -project(other, x, nearest_segment(other, x), 0.5).gap);
+        }
+    }
+    return deepest;
+}
+
 template <int Dim>
 void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt)
 {
@@ -100,6 +114,7 @@ void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double posi
 }
 
 template double reach<2>(const Surface<2>&, double, double);
+template double overlap<2>(const Surface<2>&, const Surface<2>&);
 template class PairContacts<2>;
 template class PlaneContacts<2>;
 

@@ -54,6 +54,10 @@ private:
                 std::vector<Candidate>& found) const;
 };
 
+/// Largest depth of a surface point of either body inside of the other's outline, 0 if there is none [m]. Contact looks at
+/// points of one of the two only: this is what it may have missed.
+template <int Dim> double overlap(const Surface<Dim>& first, const Surface<Dim>& second);
+
 template <int Dim> class PlaneContacts {
 public:
     /// Contact points with the plane x[axis] = position, grains on the `side` (+1 or -1) of it.
@@ -66,6 +70,7 @@ private:
     bool near_ = false;
 };
 
+extern template double overlap<2>(const Surface<2>&, const Surface<2>&);
 extern template class PairContacts<2>;
 extern template class PlaneContacts<2>;
 
