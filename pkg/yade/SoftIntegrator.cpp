@@ -108,7 +108,7 @@ void SoftIntegrator::advance(double dt)
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
         for (const Pair& pair : pairs_)
-            refuseLeak(pair, pair.overlap(), 0.5); // between the contact points some is left, the more the coarser the grain
+            refuseLeak(pair, pair.overlap(), 0.5); // between the contact points some is let pass
         evaluate();
     } else if (minJ() < 0.9 * evaluatedJ_) // an impact shortens the stable step within a few steps
         evaluate();

@@ -4,6 +4,7 @@
 #include "contact/polyline.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace softgrain {
 namespace {
@@ -33,18 +34,24 @@ template <int Dim> double reach(const Surface<Dim>& a, double other_speed, doubl
     return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size;
 }
 
+template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller)
+{
+    constexpr double share = 0.25; // of the distance of the smaller body's points
+    return larger.corner[point] ? 0 : share * 2 * M_PI * smaller.size / smaller.count;
+}
+
 template <int Dim>
-void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& other, bool corners_only, double margin,
+void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& other, bool of_larger, double margin,
                                std::vector<Candidate>& found) const
 {
     found.clear();
     const Vec<Dim> lo = other.min.array() - margin, hi = other.max.array() + margin;
     for (int p = 0; p < mine.count; ++p) {
-        if (corners_only && !mine.corner[p]) continue;
+        if (of_larger && mine.mobility == 0 && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
         const Projection at = project(other, x, nearest_segment(other, x), 0.5);
-        if (at.gap < margin) found.push_back({ p, at.segment, at.t, 0 });
+        if (at.gap + (of_larger ? allowance(mine, p, other) : 0) < margin) found.push_back({ p, at.segment, at.t, 0 });
     }
 }
 
@@ -69,7 +76,8 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
         const Surface<Dim>&mine = on_second ? second : first, &other = on_second ? first : second;
         for (Candidate& candidate : memory.near[mine_small ? 0 : 1]) {
             if (travel + near < candidate.clear_until) continue;
-            const Projection at = project(other, mine.x(candidate.point), candidate.face, candidate.place);
+            Projection at = project(other, mine.x(candidate.point), candidate.face, candidate.place);
+            if (!mine_small) at.gap += allowance(mine, candidate.point, other);
             candidate.face = at.segment;
             candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
@@ -114,6 +122,7 @@ void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double posi
 }
 
 template double reach<2>(const Surface<2>&, double, double);
+template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 template double overlap<2>(const Surface<2>&, const Surface<2>&);
 template class PairContacts<2>;
 template class PlaneContacts<2>;

@@ -26,10 +26,15 @@ template <int Dim> struct ContactPoint {
 /// How far ahead contacts are looked for: [m], beyond what two bodies can close in one step.
 template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt);
 
+/// How far a point of the larger body may enter the smaller one between the contact points there [m]: a quarter of their
+/// distance, several times what two touching arcs need. More would be a leak. Corners: 0.
+template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller);
+
 template <int Dim> class PairContacts {
 public:
     /// Contact points with a gap below `reach`, in a fixed order; forces carry over from the last call.
-    /// Points of the smaller body meet the larger one's faces; sharp corners of the larger meet the smaller's.
+    /// Points of the smaller body meet the larger one's faces; sharp corners of the larger meet the smaller's. Other
+    /// points of the larger may enter by `allowance`, and no further: gaps count from there.
     void update(const Surface<Dim>& first, const Surface<Dim>& second, double dt);
 
     std::vector<ContactPoint<Dim>> points;
@@ -41,8 +46,7 @@ public:
         double place;       ///< of the last foot on the face, 0 to 1
         double clear_until; ///< total travel of both bodies up to which the point is out of touch by its last gap [m]
     };
-    /// What the next update starts from besides `points`: the points of the smaller body and the corners of the larger
-    /// that are near, and the travel of both bodies plus reach up to which that is complete [m].
+    /// What the next update starts from besides `points`: the points of the smaller body and of the larger that are near, and the travel of both bodies plus reach up to which that is complete [m].
     struct Memory {
         std::array<std::vector<Candidate>, 2> near;
         double valid_until = -1;
@@ -50,7 +54,7 @@ public:
     Memory memory;
 
 private:
-    void search(const Surface<Dim>& mine, const Surface<Dim>& other, bool corners_only, double margin,
+    void search(const Surface<Dim>& mine, const Surface<Dim>& other, bool of_larger, double margin,
                 std::vector<Candidate>& found) const;
 };
 
@@ -70,6 +74,7 @@ private:
     bool near_ = false;
 };
 
+extern template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 extern template double overlap<2>(const Surface<2>&, const Surface<2>&);
 extern template class PairContacts<2>;
 extern template class PlaneContacts<2>;

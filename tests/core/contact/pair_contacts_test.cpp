@@ -37,7 +37,7 @@ std::vector<Projection> projections(const Surface<2>& surface, const Vec<2>& x)
     return near;
 }
 
-/// All points of the smaller body and all corners of the larger one against the other boundary.
+/// All points of either body against the other boundary; those of the larger one may enter a little.
 std::map<Key, std::vector<Projection>> brute_force(const Surface<2>& first, const Surface<2>& second)
 {
     const bool second_smaller = second.size < first.size;
@@ -45,7 +45,10 @@ std::map<Key, std::vector<Projection>> brute_force(const Surface<2>& first, cons
     for (bool on_second : { false, true }) {
         const Surface<2>&mine = on_second ? second : first, &other = on_second ? first : second;
         for (int p = 0; p < mine.count; ++p)
-            if (on_second == second_smaller || mine.corner[p]) found[{ on_second, p }] = projections(other, mine.x(p));
+            for (Projection at : projections(other, mine.x(p))) {
+                if (on_second != second_smaller) at.gap += allowance(mine, p, other);
+                found[{ on_second, p }].push_back(at);
+            }
     }
     return found;
 }
@@ -238,6 +241,25 @@ TEST(PairContacts, FindTheCornerOfALargerBodyBetweenTheSmallerOnesPoints)
     EXPECT_LE((large.x(contact.point) - tip).norm(), 1e-12);
     EXPECT_NEAR(contact.gap, -1e-3, 0.6 * std::pow(2 * M_PI / count, 4) * 9 / 384 * 1.05); // see GapOfASampledCircle
     EXPECT_LE((contact.normal + Vec<2>(1, 1).normalized()).norm(), 1e-9);
+}
+
+// Between two points of the smaller disc a point of the larger one enters, but by no more than the allowance: the gap counts
+// from there.
+TEST(PairContacts, LetPointsOfTheLargerBodyEnterOnlySoFar)
+{
+    for (double depth : { 0.02, 0.04 }) {
+        Facing facing(-depth);
+        move(facing.second, Vec<2>(0, 0), M_PI / 44, 1);
+        facing.rest();
+        facing.pair.update(facing.first, facing.second, 1e-3);
+        const double allowed = allowance(facing.first, 0, facing.second);
+        EXPECT_NEAR(allowed, 0.7 * 2 * M_PI / 44 / 4, 1e-3);
+        const auto found = std::find_if(facing.pair.points.begin(), facing.pair.points.end(), [](const auto& c) { return !c.on_second && c.point == 0; });
+        ASSERT_EQ(found != facing.pair.points.end(), depth > allowed);
+        if (depth < allowed) continue;
+        EXPECT_NEAR(found->gap, allowed - depth, 1e-4);
+        EXPECT_LE((found->normal - Vec<2>(-1, 0)).norm(), 1e-3);
+    }
 }
 
 // Points of a soft grain meet the faces of a rigid body, whichever is larger.
