@@ -52,6 +52,7 @@ void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 
 void SoftIntegrator::action()
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     Problems::raise();
     requireSaneAttributes();
     adopt();
@@ -330,9 +331,11 @@ void SoftIntegrator::gatherPairs()
 void SoftIntegrator::pose(double dt)
 {
     problem_.contacts.clear();
+    deepest_ = 0;
     for (const Pair& pair : pairs_)
         for (const auto& point : pair.geom->points()) {
             if (!fresh_) refuseLeak(pair, -point.gap, 0.1);
+            deepest_ = std::max(deepest_, -point.gap / pair.size());
             softgrain::Contact<2> contact;
             contact.body      = pair.geom->withPlane || point.on_second ? pair.body2 : pair.body1;
             contact.other     = pair.geom->withPlane || point.on_second ? pair.body1 : pair.body2;
@@ -444,6 +447,7 @@ void SoftIntegrator::requestCollider() const
 
 void SoftIntegrator::evaluate()
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     scene = Omega::instance().getScene().get(); // a loaded engine still points to the scene before, until it runs
     for (const auto& body : *scene->bodies)
         if (softStateOf(*body) && !body->bound) return; // the first step has still to come
@@ -468,6 +472,7 @@ void SoftIntegrator::trackEnergies()
 
 Real SoftIntegrator::elasticEnergy()
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     evaluate();
     if (!assembly_) return 0;
     assembly_->evaluate_energy(scene->dt, threads());
@@ -479,6 +484,7 @@ Real SoftIntegrator::elasticEnergy()
 
 Real SoftIntegrator::kineticEnergy()
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     Real sum = 0;
     for (const SoftState* state : states_)
         sum += state->grain.motion.kinetic;
@@ -487,6 +493,7 @@ Real SoftIntegrator::kineticEnergy()
 
 Real SoftIntegrator::solidArea()
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     Real sum = 0;
     for (SoftState* state : states_)
         sum += state->area();
@@ -495,26 +502,22 @@ Real SoftIntegrator::solidArea()
 
 Real SoftIntegrator::minJ() const
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     Real least = 1;
     for (const SoftState* state : states_)
         least = std::min(least, state->grain.min_J);
     return least;
 }
 
-Real SoftIntegrator::maxPenetration() const
+Real SoftIntegrator::residual() const
 {
-    Real deepest = 0;
-    for (const Pair& pair : pairs_) {
-        for (const auto& point : pair.geom->points())
-            deepest = std::max(deepest, -point.gap / pair.size());
-    }
-    return deepest;
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    return problem_.residual();
 }
-
-Real SoftIntegrator::residual() const { return problem_.residual(); }
 
 boost::python::list SoftIntegrator::contacts() const
 {
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
     boost::python::list touching;
     for (const Pair& pair : pairs_) {
         const Vector3r force = pair.phys->normalForce + pair.phys->shearForce;

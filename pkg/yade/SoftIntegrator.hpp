@@ -12,6 +12,7 @@
 #include "step/assembly.hpp"
 
 #include <memory>
+#include <mutex>
 
 namespace yade {
 
@@ -26,7 +27,7 @@ public:
     Real kineticEnergy();
     Real solidArea();
     Real minJ() const;
-    Real maxPenetration() const;
+    Real maxPenetration() const { return deepest_; }
     Real residual() const;
     boost::python::list contacts() const;
     void postLoad(SoftIntegrator&);
@@ -109,6 +110,7 @@ private:
     void trackEnergies();
     int threads() const;
 
+    mutable std::recursive_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask
     std::vector<shared_ptr<Body>> bodies_;
     std::vector<SoftState*> states_;
     std::vector<Vector3r> loads_; ///< on each grain as a whole, besides contacts: x and y components [N/m], torque [N]
@@ -117,6 +119,7 @@ private:
     std::vector<Pair> pairs_;
     softgrain::ContactProblem<2> problem_;
     softgrain::NonlinearGaussSeidel<2> solver_;
+    Real deepest_ = 0;   ///< penetration of a contact point in the last step [radius of the smaller grain]
     bool fresh_ = false; ///< grains have come since the last step
     Real evaluatedJ_ = 1; ///< smallest J when the stable step was evaluated
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
