@@ -57,7 +57,7 @@ void requireSoftEngines(const Scene& scene)
             ++integrators;
             inOrder = loops > 0;
         }
-        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get()); 
+        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get());
             driver && (driver->getBaseClassName() == "KinematicEngine" || driver->getClassName() == "CombinedKinematicEngine"))
             requireDriven(scene, *driver);
         if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {

@@ -41,6 +41,11 @@ namespace {
     };
 
     Vector3r inSpace(const softgrain::Vec<2>& v) { return Vector3r(v[0], v[1], 0); }
+    /// Velocity of the centre of mass, and spin.
+    Vector3r rates(const softgrain::Motion<2>& motion)
+    {
+        return Vector3r(motion.velocity[0], motion.velocity[1], motion.angular_momentum[0] / motion.second_moment.trace());
+    }
 
 } // namespace
 
@@ -122,7 +127,6 @@ void SoftIntegrator::adopt()
 {
     size_t known   = 0;
     bool unchanged = assembly_ != nullptr;
-    std::vector<shared_ptr<Body>> now;
     for (const auto& body : *scene->bodies) {
         if (!softStateOf(*body)) continue;
         if (unchanged && known < bodies_.size() && bodies_[known] == body && states_[known] == body->state.get() && !states_[known]->outdated(*body)) {
@@ -257,10 +261,8 @@ void SoftIntegrator::hold(double dt)
             const Real x = grain.surface.impulse[2 * p], y = grain.surface.impulse[2 * p + 1];
             impulse += Vector3r(x, y, arm[0] * y - arm[1] * x);
         }
-        const Real spread = motion.second_moment.trace();
-        const Vector3r inertias(state.mass, state.mass, spread);
-        const Vector3r now(motion.velocity[0], motion.velocity[1], motion.angular_momentum[0] / spread);
-        Vector3r lacking = Vector3r(state.vel[0], state.vel[1], state.angVel[2]) - now - (dt * loads_[i] + impulse).cwiseQuotient(inertias);
+        const Vector3r inertias(state.mass, state.mass, motion.second_moment.trace());
+        Vector3r lacking = Vector3r(state.vel[0], state.vel[1], state.angVel[2]) - rates(motion) - (dt * loads_[i] + impulse).cwiseQuotient(inertias);
         for (int k = 0; k < 3; ++k)
             if (held[k]) state.contactLoad[k] = impulse[k] / dt;
             else
@@ -273,10 +275,8 @@ void SoftIntegrator::hold(double dt)
 Real SoftIntegrator::powerOfLoads() const
 {
     Real sum = 0;
-    for (size_t i = 0; i < states_.size(); ++i) {
-        const auto& motion = states_[i]->grain.motion;
-        sum += loads_[i].dot(Vector3r(motion.velocity[0], motion.velocity[1], motion.angular_momentum[0] / motion.second_moment.trace()));
-    }
+    for (size_t i = 0; i < states_.size(); ++i)
+        sum += loads_[i].dot(rates(states_[i]->grain.motion));
     return sum;
 }
 

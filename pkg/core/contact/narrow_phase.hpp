@@ -46,7 +46,8 @@ public:
         double place;       ///< of the last foot on the face, 0 to 1
         double clear_until; ///< total travel of both bodies up to which the point is out of touch by its last gap [m]
     };
-    /// What the next update starts from besides `points`: the points of the smaller body and of the larger that are near, and the travel of both bodies plus reach up to which that is complete [m].
+    /// What the next update starts from besides `points`: the points of the smaller body and of the larger that are near,
+    /// and the travel of both bodies plus reach up to which that is complete [m].
     struct Memory {
         std::array<std::vector<Candidate>, 2> near;
         double valid_until = -1;

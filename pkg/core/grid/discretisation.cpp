@@ -339,7 +339,6 @@ template <int Dim> void Discretisation<Dim>::build_delassus()
                 if (other != folded[q].end()) value += weight * other->second / node_mass[node];
             }
             if (value == 0) continue;
-            if (p == q) delassus_diagonal.push_back(value);
             delassus_column.push_back(q);
             delassus_value.push_back(value);
         }

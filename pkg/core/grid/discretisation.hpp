@@ -87,7 +87,6 @@ public:
     /// `column`, per unit density and radius^Dim; rows in CSR form, isotropic in space.
     std::vector<int> delassus_row, delassus_column;
     std::vector<double> delassus_value;
-    std::vector<double> delassus_diagonal;
     double delassus(int row, int column) const;
     /// The same for faces: the rows of all vertices that a face follows, on the columns that any of them has.
     struct FaceRows {

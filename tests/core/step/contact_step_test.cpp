@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Grains that meet: balances of momentum and energy, threads and lanes.
 #include "support/layouts.hpp"
-#include "support/world.hpp"
+#include "support/sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,21 +9,6 @@ using namespace softgrain;
 using namespace softgrain::testing_support;
 
 namespace {
-
-double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-struct Sums {
-    Vec<2> momentum = Vec<2>::Zero();
-    double angular = 0, size = 0; ///< angular momentum about the origin; m |v| of all
-    explicit Sums(const World& world)
-    {
-        for (const auto& g : world.grains) {
-            momentum += g.mass() * g.motion.velocity;
-            size += g.mass() * g.motion.velocity.norm();
-            angular += g.motion.angular_momentum[0] + g.mass() * cross(g.motion.position, g.motion.velocity);
-        }
-    }
-};
 
 /// Two discs of 1 and 1.3 mm that fly into each other off centre, turning.
 void add_colliding_discs(World& world, int points, double speed)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Free flight: what has to stay constant, and what stops a run.
-#include "support/world.hpp"
 #include "support/random.hpp"
+#include "support/sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,20 +11,6 @@ using namespace softgrain;
 using namespace softgrain::testing_support;
 
 namespace {
-
-double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-struct Sums {
-    Vec<2> momentum = Vec<2>::Zero();
-    double angular = 0; ///< about the origin
-    explicit Sums(const World& world)
-    {
-        for (const auto& g : world.grains) {
-            momentum += g.mass() * g.motion.velocity;
-            angular += g.motion.angular_momentum[0] + g.mass() * cross(g.motion.position, g.motion.velocity);
-        }
-    }
-};
 
 double step_of(Grain<2>& grain, double share) { return share * critical_step(grain, unit_critical_step(grain)); }
 
