@@ -4,9 +4,8 @@
 #include <core/GlobalEngine.hpp>
 #include <core/Scene.hpp>
 
-#include "SoftGeom.hpp"
-#include "SoftPhys.hpp"
-#include "SoftState.hpp"
+#include "SoftLoads.hpp"
+#include "SoftPairs.hpp"
 
 #include "solver/nlgs.hpp"
 #include "step/assembly.hpp"
@@ -27,7 +26,7 @@ public:
     Real kineticEnergy();
     Real solidArea();
     Real minJ() const;
-    Real maxPenetration() const { return deepest_; }
+    Real maxPenetration() const { return pairs_.deepest; }
     Real residual() const;
     boost::python::list contacts() const;
     void postLoad(SoftIntegrator&);
@@ -80,47 +79,26 @@ public:
                          "Contacts with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m])."));
 
 private:
-    struct Pair {
-        Body::id_t id1, id2;
-        shared_ptr<SoftGeom> geom;
-        shared_ptr<SoftPhys> phys;
-        SoftState* first; ///< null: a rigid body
-        SoftState* second;
-        const State* rigid;
-        int body1, body2; ///< places in the contact problem; body1 -1: a plane
-        /// Largest depth of any point of either grain in the other [m].
-        Real overlap() const { return first ? softgrain::overlap(first->grain.surface, second->grain.surface) : 0; }
-        /// Radius of the smaller grain.
-        Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
-    };
     void adopt();
+    bool knowsAllBodies();
+    void takeIn(const shared_ptr<Body>& body);
     void advance(double dt);
     void requireSaneAttributes() const;
     void requireStableStep();
-    void refuseStranger(const Body& grain, Body::id_t otherId) const;
-    void gatherLoads();
-    void gatherPairs();
-    void pose(double dt);
-    void refuseOverlaps() const;
-    void refuseLeak(const Pair& pair, Real depth, Real most) const;
-    void deliver(double dt);
-    void hold(double dt);
-    Real powerOfLoads() const;
-    void requestCollider() const;
+    void refuseStrangers() const;
+    std::vector<TouchingPair> touchingPairs() const;
+    void finish(int grain, double dt);
     void trackEnergies();
     int threads() const;
 
     mutable std::recursive_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask
-    std::vector<shared_ptr<Body>> bodies_;
-    std::vector<SoftState*> states_;
-    std::vector<Vector3r> loads_; ///< on each grain as a whole, besides contacts: x and y components [N/m], torque [N]
-    std::vector<int> place_; ///< of a body, by id, among the soft ones
+    SoftBodies soft_;
+    SoftLoads loads_ { soft_ };
+    SoftPairs pairs_ { soft_ };
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
-    std::vector<Pair> pairs_;
-    softgrain::ContactProblem<2> problem_;
     softgrain::NonlinearGaussSeidel<2> solver_;
-    Real deepest_ = 0;   ///< penetration of a contact point in the last step [radius of the smaller grain]
-    bool fresh_ = false; ///< grains have come since the last step
+    size_t interactionCount_ = 0; ///< in the last step
+    bool fresh_ = false; ///< grains have come since the last step, or were moved by hand
     Real evaluatedJ_ = 1; ///< smallest J when the stable step was evaluated
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };

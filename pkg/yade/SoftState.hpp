@@ -14,6 +14,7 @@ public:
     static constexpr int currentFormat = 2; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
+    Real insideUntil = 0;    ///< travel of its surface up to which its bound surely holds it [m]
 
     /// Sets the grain up from its body, at first from the placement and velocities, after loading from the saved
     /// fields; once done costs nothing. Throws softgrain::UserError.

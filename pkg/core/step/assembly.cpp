@@ -11,8 +11,9 @@ namespace {
 
     std::string whose(int id) { return "soft grain #" + std::to_string(id); }
 
-    template <int Dim> [[noreturn]] void report_inversion(const Grain<Dim>& grain)
+    template <int Dim> [[noreturn]] void report_inversion(Grain<Dim>& grain)
     {
+        grain.pull();
         const auto F = grain.deformation_gradients();
         int worst = 0;
         for (int p = 1; p < int(F.size()); ++p)
@@ -23,8 +24,14 @@ namespace {
                                 "resolution can follow, or an impact near the wave speed.");
     }
 
-    template <int Dim> [[noreturn]] void report_not_finite(const Grain<Dim>& grain)
+    template <int Dim> bool is_finite(const Grain<Dim>& grain)
     {
+        return std::isfinite(grain.motion.kinetic) && grain.motion.position.allFinite();
+    }
+
+    template <int Dim> [[noreturn]] void report_not_finite(Grain<Dim>& grain)
+    {
+        grain.pull();
         const auto x = grain.point_positions(), v = grain.point_velocities();
         int first = 0;
         while (first + 1 < int(x.size()) && x[first].allFinite() && v[first].allFinite())
@@ -32,6 +39,19 @@ namespace {
         throw SimulationError(whose(grain.id) + ": the motion of material point " + std::to_string(first)
                               + " is no longer a finite number (kinetic energy " + shown(grain.motion.kinetic)
                               + " J); likely causes: a time step over the stable limit or a body moved by hand.");
+    }
+
+    /// Moves so far in a step that it could get past other bodies.
+    template <int Dim> bool leaps(const Grain<Dim>& grain, double dt)
+    {
+        return grain.surface.speed * dt > 0.5 * grain.surface.size;
+    }
+
+    template <int Dim> [[noreturn]] void report_leap(const Grain<Dim>& grain, double dt)
+    {
+        throw SimulationError(whose(grain.id) + ": it moves " + shown(grain.surface.speed * dt / grain.surface.size)
+                              + " radii in one step, so that it could pass through other bodies; slow it down (speed "
+                              + shown(grain.surface.speed) + " m/s) or take a smaller time step.");
     }
 
 } // namespace
@@ -72,6 +92,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
             members_.push_back(part);
         }
     }
+    least_J_.assign(batches_.size(), 1);
     for (size_t b = 0; b < batches_.size(); ++b)
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             members_[b][lane]->batch = batches_[b].get();
@@ -95,9 +116,11 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
+        double least = 1;
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             grain.min_J = batch.per_lane[lane];
+            if (!(grain.min_J >= least)) least = grain.min_J; // also when it is no number
             for (int d = 0; d < Dim; ++d)
                 batch.gain[d * lanes + lane] = dt * (gravity[d] + grain.acceleration[d]) / grain.radius;
             grain.surface.velocity_before.swap(grain.surface.velocity); // filled below
@@ -111,16 +134,19 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
             for (size_t i = 0; i < surface.velocity.size(); ++i)
                 surface.velocity[i] = grain.radius * values[i * lanes + lane];
         }
+        least_J_[b] = least;
     }
-    for (Grain<Dim>* grain : grains_)
-        if (!(grain->min_J > 0)) {
-            grain->pull();
-            report_inversion(*grain);
-        }
+    for (int b = 0; b < count; ++b)
+        if (!(least_J_[b] > 0))
+            for (Grain<Dim>* grain : members_[b])
+                if (!(grain->min_J > 0)) report_inversion(*grain);
 }
 
-template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
+template <int Dim> double Assembly<Dim>::min_J() const { return *std::min_element(least_J_.begin(), least_J_.end()); }
+
+template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Visit& before, const Visit& after)
 {
+    std::vector<char> sound(batches_.size(), true);
     const int count = int(batches_.size());
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
@@ -129,9 +155,12 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
         double* values = batch.surface();
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
+            if (before) before(grain);
             const double unit = grain.surface.mobility / grain.radius;
-            for (size_t i = 0; i < grain.surface.impulse.size(); ++i)
+            for (size_t i = 0; i < grain.surface.impulse.size(); ++i) {
                 values[i * lanes + lane] = unit * grain.surface.impulse[i];
+                grain.surface.impulse[i] = 0;
+            }
         }
         const auto& kernels = motion_kernels<Dim>();
         kernels.push[batch.wide()](batch.data());
@@ -159,18 +188,16 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads)
             surface.speed = std::sqrt(speed2);
             surface.travel += dt * surface.speed;
             grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
+            sound[b] &= is_finite(grain) && !leaps(grain, dt);
+            if (after) after(grain);
         }
     }
-    for (Grain<Dim>* grain : grains_) {
-        if (!std::isfinite(grain->motion.kinetic) || !grain->motion.position.allFinite()) {
-            grain->pull();
-            report_not_finite(*grain);
-        }
-        if (grain->surface.speed * dt > 0.5 * grain->surface.size)
-            throw SimulationError(whose(grain->id) + ": it moves " + shown(grain->surface.speed * dt / grain->surface.size)
-                                  + " radii in one step, so that it could pass through other bodies; slow it down (speed "
-                                  + shown(grain->surface.speed) + " m/s) or take a smaller time step.");
-    }
+    for (int b = 0; b < count; ++b)
+        if (!sound[b])
+            for (Grain<Dim>* grain : members_[b]) {
+                if (!is_finite(*grain)) report_not_finite(*grain);
+                if (leaps(*grain, dt)) report_leap(*grain, dt);
+            }
 }
 
 template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)
@@ -181,7 +208,7 @@ template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& proble
                             + problem.relative(contact, &Surface<Dim>::velocity_before)) / 2;
         const double normal = contact.impulse.dot(contact.normal) * u.dot(contact.normal);
         balance.contact_dissipation -= normal;
-        balance.friction -= contact.impulse.dot(u) - normal;
+        if (contact.friction > 0) balance.friction -= contact.impulse.dot(u) - normal; // else but round-off
         if (contact.other < 0) balance.external_work += contact.impulse.dot(contact.drive);
         else if (Surface<Dim>& other = *problem.bodies[contact.other]; other.mobility == 0)
             for (int k = 0; k < face_vertices<Dim>; ++k)

@@ -9,6 +9,8 @@
 #include "solver/contact_problem.hpp"
 #include "step/grain.hpp"
 
+#include <functional>
+
 namespace softgrain {
 
 /// Energies since the start [J] (J/m in 2D). Elastic and kinetic stand with the grains.
@@ -29,9 +31,13 @@ public:
 
     /// Velocities of the surfaces without contact impulses. Throws SimulationError when a point has inverted.
     void predict(double dt, const Vec<Dim>& gravity, int threads);
-    /// Takes the surface impulses in, moves the grains, renews surfaces and motions. Throws SimulationError
-    /// when a value is no longer finite.
-    void correct(double dt, int threads);
+    using Visit = std::function<void(Grain<Dim>&)>;
+    /// Takes the surface impulses in, sets them to zero, moves the grains, renews surfaces and motions. Each grain is
+    /// shown to `before` and, moved, to `after` while it is in cache, by the thread that works on it; neither may throw.
+    /// Throws SimulationError when a value is no longer finite.
+    void correct(double dt, int threads, const Visit& before = {}, const Visit& after = {});
+    /// Smallest J of a material point at the last predict, 1 at most.
+    double min_J() const;
     /// Work of the solved contacts over the step, with the mean of the velocities before and after it.
     static void account(const ContactProblem<Dim>& problem, EnergyBalance& balance);
     /// Smallest stretches of the grains.
@@ -47,6 +53,7 @@ private:
     std::vector<Grain<Dim>*> grains_;
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
+    std::vector<double> least_J_;                   ///< of each batch
 };
 
 /// Largest stable step of symplectic Euler for the undeformed grain, 2 / omega_max, per sqrt(density) radius

@@ -158,8 +158,6 @@ private:
     void scatter()
     {
         plane_force.assign(planes.size(), Vec<2>::Zero());
-        for (auto& grain : grains)
-            std::fill(grain.surface.impulse.begin(), grain.surface.impulse.end(), 0.0);
         for (size_t c = 0; c < problem.contacts.size(); ++c) {
             const Contact<2>& contact = problem.contacts[c];
             owners_[c].first->force = contact.impulse / dt;

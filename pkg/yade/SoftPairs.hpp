@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "SoftGeom.hpp"
+#include "SoftPhys.hpp"
+#include "SoftState.hpp"
+
+#include "solver/contact_problem.hpp"
+
+#include <core/Scene.hpp>
+
+namespace yade {
+
+/// A pair of bodies in touch, as the Law2 functor hands it to the integrator.
+struct TouchingPair {
+    Body::id_t id1, id2;
+    shared_ptr<SoftGeom> geom;
+    shared_ptr<SoftPhys> phys;
+};
+
+/// The soft grains of a scene, by ascending ids.
+struct SoftBodies {
+    std::vector<shared_ptr<Body>> bodies;
+    std::vector<SoftState*> states;
+    std::vector<int> place; ///< of a body, by id; -1 for others
+
+    int of(Body::id_t id) const { return size_t(id) < place.size() ? place[id] : -1; }
+};
+
+/// The pairs in touch in a step, and the contact problem of all of them.
+class SoftPairs {
+public:
+    explicit SoftPairs(const SoftBodies& soft)
+            : soft_(soft)
+    {
+    }
+
+    void clear()
+    {
+        problem = {};
+        pairs_.clear();
+    }
+
+    softgrain::ContactProblem<2> problem;
+    Real deepest = 0; ///< penetration of a contact point [radius of the smaller grain]
+
+    /// Takes the pairs, in any order, and poses their problem. Shares of `recovery` of penetrations are taken back.
+    void pose(const Scene& scene, std::vector<TouchingPair>&& touching, Real recovery);
+    /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
+    void deliver(Scene& scene);
+    /// Throws when bodies got past each other by `most` radii: at the contact points; anywhere.
+    void refuseLeaksAtPoints(Real most) const;
+    void refuseLeaks(Real most) const;
+    /// Throws when grains that were just placed overlap: contact would throw them apart. A little, as in a dense packing, is let pass.
+    void refuseOverlaps() const;
+    /// Pairs with a force: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).
+    boost::python::list withForce() const;
+
+private:
+    struct Pair : TouchingPair {
+        SoftState* first; ///< null: a rigid body
+        SoftState* second;
+        const State* rigid;
+        int body1, body2; ///< places in the contact problem; body1 -1: a plane
+        /// Radius of the smaller grain.
+        Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
+    };
+    void take(const Scene& scene, TouchingPair&& touching);
+    void refuseLeak(const Pair& pair, Real depth, Real most) const;
+
+    const SoftBodies& soft_;
+    std::vector<Pair> pairs_;
+};
+
+} // namespace yade
