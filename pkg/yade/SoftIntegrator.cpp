@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SoftIntegrator.hpp"
 
+#include "Bytes.hpp"
 #include "Law2_SoftGeom_SoftPhys_ContactDynamics.hpp"
 #include "Problems.hpp"
 #include "SceneCheck.hpp"
 #include "SoftTimeStepper.hpp"
+
+#include "solver/matrix_form.hpp"
 
 #include <core/InteractionLoop.hpp>
 #include <core/Omega.hpp>
@@ -304,6 +307,21 @@ Real SoftIntegrator::residual() const
 {
     const std::lock_guard<std::recursive_mutex> lock(guard_);
     return pairs_.problem.residual();
+}
+
+boost::python::tuple SoftIntegrator::contactProblem() const
+{
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const auto form = softgrain::matrix_form(pairs_.problem);
+    const auto& W   = form.W;
+    return boost::python::make_tuple(
+            asBytes(W.outerIndexPtr(), W.outerSize() + 1),
+            asBytes(W.innerIndexPtr(), W.nonZeros()),
+            asBytes(W.valuePtr(), W.nonZeros()),
+            asBytes(form.q.data(), form.q.size()),
+            asBytes(form.mu.data(), form.mu.size()),
+            asBytes(form.r.data(), form.r.size()),
+            asBytes(form.u.data(), form.u.size()));
 }
 
 boost::python::list SoftIntegrator::contacts() const

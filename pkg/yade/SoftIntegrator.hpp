@@ -29,6 +29,7 @@ public:
     Real maxPenetration() const { return pairs_.deepest; }
     Real residual() const;
     boost::python::list contacts() const;
+    boost::python::tuple contactProblem() const;
     void postLoad(SoftIntegrator&);
 
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
@@ -76,7 +77,10 @@ public:
                          "Residual of the last step's contact problem: ||r - P_K(r - u - μ|uₜ|n)|| / max(|q|, |r|, |u|), as Siconos defines it [-].")
                     .def("contacts",
                          &SoftIntegrator::contacts,
-                         "Contacts with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m])."));
+                         "Contacts with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).")
+                    .def("contactProblem",
+                         &SoftIntegrator::contactProblem,
+                         "The last step's contact problem as a matrix and vectors; softgrain.fclib.lastProblem() gives it as numpy arrays."));
 
 private:
     void adopt();

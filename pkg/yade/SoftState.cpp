@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SoftState.hpp"
 
+#include "Bytes.hpp"
 #include "SoftGrain.hpp"
 #include "SoftMat.hpp"
 
@@ -15,12 +16,6 @@ namespace {
     using Plane = softgrain::Vec<2>;
 
     std::string whose(int id) { return "soft grain #" + std::to_string(id); }
-
-    boost::python::object asBytes(const std::vector<double>& values)
-    {
-        return boost::python::object(boost::python::handle<>(
-                PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(double)))));
-    }
 
     template <class Items> boost::python::object flattened(const Items& items)
     {
