@@ -13,6 +13,7 @@
 //     volumetric_energy U(J) [J/m3]
 //     volumetric_slope  U'(J) [Pa], given 1/J too: divisions are shared between points
 //     volumetric_modulus U''(1) [Pa]
+//     shear_modulus     mu of the small-strain limit [Pa]
 //     energy            w(F) [J/m3]
 //     stress            dw/dF [Pa], given cof F and 1/J
 //     wave_modulus      lambda + 2 mu of the small-strain limit [Pa]

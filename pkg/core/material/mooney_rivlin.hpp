@@ -17,6 +17,7 @@ struct MooneyRivlin {
         return p[2] * (J - 1.0) * (J - 1.0);
     }
     template <class T> static SOFTGRAIN_INLINE T volumetric_modulus(const T* p) { return 2.0 * p[2]; }
+    template <class T> static SOFTGRAIN_INLINE T shear_modulus(const T* p) { return 2.0 * (p[0] + p[1]); }
     template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T&) { return 2.0 * p[2] * (J - 1.0); }
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)

@@ -17,6 +17,7 @@ struct NeoHookean {
         return 0.5 * p[0] * log_J * log_J;
     }
     template <class T> static SOFTGRAIN_INLINE T volumetric_modulus(const T* p) { return p[0]; }
+    template <class T> static SOFTGRAIN_INLINE T shear_modulus(const T* p) { return p[1]; }
     template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T& inverse_J)
     {
         return p[0] * logarithm(J) * inverse_J;

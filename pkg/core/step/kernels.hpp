@@ -231,16 +231,19 @@ template <int Dim, class T, int L> SOFTGRAIN_INLINE void interpolate(const Kerne
     }
 }
 
-/// Points of a cut cell lie where the nodes are held by little mass; a share of the volumetric stiffness
-/// keeps their J near the mean of the region. Full cells need none.
-template <int Dim> SOFTGRAIN_INLINE double stabilisation(const typename Discretisation<Dim>::Region& region)
+/// Points of a cut cell lie where the nodes are held by little mass; a share of the volumetric stiffness keeps their J near
+/// the mean of the region [Pa]. It is a stiffness against pointwise volume change, so it may not grow with the volumetric
+/// one: over some 50 shear moduli (a Poisson ratio of 0.49) it would lock the rim. Full cells need none.
+template <int Dim, class Law, class T>
+SOFTGRAIN_INLINE T stabilisation(const typename Discretisation<Dim>::Region& region, const T* p)
 {
-    return region.full ? 0 : 0.6;
+    return (region.full ? 0 : 0.6) * smaller(Law::volumetric_modulus(p), 50.0 * Law::shear_modulus(p));
 }
 
 /// f_i = - sum_p V_p P_p grad N_i (Vu et al. 2017, eq. 6, in the reference configuration) with the mean dilatation
 /// of each region in the volumetric part: the gradient of
-///     sum over regions of V U(mean J) + sum over points of V_p [ w(F_p) + s U''(1) / 2 (J_p - mean J)^2 ].
+///     sum over regions of V U(mean J) + sum over points of V_p [ w(F_p) + k / 2 (J_p - mean J)^2 ],
+/// k the stabilisation.
 template <int Dim, class Law> struct InternalForce {
     template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* min_J)
     {
@@ -264,7 +267,7 @@ template <int Dim, class Law> struct InternalForce {
             reciprocals<points + 1>(J, inverse_J);
             const T slope = Law::volumetric_slope(p, J[points], inverse_J[points]);
             const double volume = -region.volume / points;
-            const T stiff = stabilisation<Dim>(region) * Law::volumetric_modulus(p);
+            const T stiff = stabilisation<Dim, Law>(region, p);
 #pragma GCC unroll 8
             for (int q = 0; q < points; ++q) {
                 const Tensor<Dim, T> cof = cofactor(F[q]);
@@ -305,7 +308,7 @@ template <int Dim, class Law> struct Energy {
             for (int q = 0; q < points; ++q)
                 spread += (J[q] - mean) * (J[q] - mean) * (1.0 / points);
             sum += region.volume
-                * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Dim>(region) * Law::volumetric_modulus(p) * spread);
+                * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Dim, Law>(region, p) * spread);
         }
         field<T, L>(energy)[0] = sum;
         field<T, L>(min_stretch)[0] = smallest;

@@ -155,6 +155,7 @@ TYPED_TEST(LawIn, SmallStrainsAreHookes)
         EXPECT_LE((slope - hooke).norm(), 1e3 * h * h);
     }
     EXPECT_NEAR(Law::wave_modulus(this->p.data()), lambda + 2 * mu, 1e-14);
+    EXPECT_NEAR(Law::shear_modulus(this->p.data()), mu, 1e-14);
 }
 
 TYPED_TEST(LawIn, LanesAgreeWithOneLane)
