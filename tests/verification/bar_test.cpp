@@ -15,7 +15,7 @@ constexpr double length = 1e-2, height = 1e-3, density = 1000, wave_number = M_P
 /// Speed of long longitudinal waves, the square root of E' / rho with E' = E / (1 - nu^2) = 4 mu (lambda + mu) / (lambda + 2 mu).
 double bar_speed(double lambda, double mu) { return std::sqrt(4 * mu * (lambda + mu) / (lambda + 2 * mu) / density); }
 
-/// Angular frequency of the lowest symmetric wave in a plate (Rayleigh 1888; Lamb 1917) at the wave
+/// Angular frequency of the lowest symmetric wave in a plate (Lamb 1917) at the wave
 /// number of the bar: the plate between y = +-H/2 in plane strain is the bar, with its lateral inertia. With
 /// s^2 = k^2 - omega^2 / c_l^2, q^2 = omega^2 / c_t^2 - k^2, both positive here, and a = H/2:
 ///     (q^2 - k^2)^2 cosh(s a) sin(q a) / q - 4 k^2 s sinh(s a) cos(q a) = 0.

@@ -220,7 +220,7 @@ TEST(AxisAlignedDisplacement, IsOfOrder2WithTractions)
                 ManufacturedCase c;
                 c.mesh = square_mesh(points, offset);
                 c.radius = 1 / std::sqrt(M_PI); // side 1
-                c.materials = { material };
+                c.materials.push_back(material);
                 c.until = 0.5;
                 all.width.push_back(c.mesh->cell_width);
                 all.error.push_back(ManufacturedRun(waves, c).errors()[0]);
@@ -251,7 +251,7 @@ TEST(ManufacturedTime, IsOfOrder2AndVelocitiesStandHalfAStepBehind)
     for (int steps : counts) {
         ManufacturedCase c;
         c.mesh = disc_mesh(60);
-        c.materials = { unit_neo_hookean(0.3) };
+        c.materials.push_back(unit_neo_hookean(0.3));
         c.until = until;
         c.steps = steps;
         const ManufacturedRun to_end(vortex, c);

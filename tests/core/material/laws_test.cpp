@@ -88,6 +88,48 @@ TYPED_TEST(LawIn, StressIsTheSlopeOfTheEnergy)
     }
 }
 
+/// dP along dF in closed form, by differentiating P = F S of Vu et al. 2017, eqs. 7 and 8, with d(F^-T) = -F^-T dF^T F^-T; for
+/// Neo-Hookean as in Bonet and Wood 2008, section 6.4.
+template <int Dim> Mat<Dim> tangent(const NeoHookean&, const std::vector<double>& p, const Mat<Dim>& F, const Mat<Dim>& dF)
+{
+    const Mat<Dim> G = F.inverse().transpose();
+    return p[1] * dF + (p[1] - p[0] * std::log(F.determinant())) * G * dF.transpose() * G + p[0] * G.cwiseProduct(dF).sum() * G;
+}
+template <int Dim> Mat<Dim> tangent(const MooneyRivlin&, const std::vector<double>& p, const Mat<Dim>& F, const Mat<Dim>& dF)
+{
+    const double c1 = p[0], c2 = p[1], c = p[2], J = F.determinant();
+    const Mat<Dim> G = F.inverse().transpose(), C = F.transpose() * F, dC = dF.transpose() * F + F.transpose() * dF;
+    const double trace = C.trace() + 3 - Dim;
+    return 2 * (c1 + c2 * trace) * dF + 2 * c2 * dC.trace() * F - 2 * c2 * (dF * C + F * dC)
+        + 2 * c * (2 * J - 1) * J * G.cwiseProduct(dF).sum() * G
+        - (2 * c * J * (J - 1) - 2 * (c1 + 2 * c2)) * G * dF.transpose() * G;
+}
+
+// The code has no tangent: the differences of its stress have to be that of the law, and symmetric, A : dP[B] = B : dP[A].
+TYPED_TEST(LawIn, DifferencesOfTheStressAreASymmetricTangent)
+{
+    constexpr int Dim = TypeParam::Dim;
+    Random random(6);
+    double worst = 0, asymmetry = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        const Mat<Dim> F = this->deformation(random), A = random.matrix<Dim>(1), B = random.matrix<Dim>(1);
+        const auto along = [&](const Mat<Dim>& dF) {
+            Mat<Dim> dP;
+            for (int i = 0; i < Dim; ++i)
+                for (int j = 0; j < Dim; ++j)
+                    dP(i, j) = central_gradient([&](const std::vector<double>& s) { return this->stress(F + s[0] * dF)(i, j); },
+                                                { 0.0 }, 3e-4)[0];
+            return dP;
+        };
+        const Mat<Dim> dP = along(A), expected = tangent<Dim>(typename TypeParam::Law(), this->p, F, A);
+        worst = std::max(worst, (dP - expected).norm() / (1 + expected.norm()));
+        asymmetry = std::max(asymmetry, std::abs(dP.cwiseProduct(B).sum() - along(B).cwiseProduct(A).sum()) / (1 + expected.norm()));
+    }
+    std::printf("%s in %d dimensions: tangent within %.1e, symmetric within %.1e\n", TypeParam::Law::name, Dim, worst, asymmetry);
+    EXPECT_LE(worst, 1e-9); // h^4 times a sixth derivative of ln J, 8e-15 times up to 1e5, and eps / h
+    EXPECT_LE(asymmetry, 1e-9);
+}
+
 TYPED_TEST(LawIn, VolumetricSlopeIsTheSlopeOfTheVolumetricEnergy)
 {
     using Law = typename TypeParam::Law;

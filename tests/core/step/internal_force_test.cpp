@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // f = -dE/du, seen from outside: forces from the velocities that a step from rest gives, energies from the grains.
+#include "support/dense.hpp"
 #include "support/finite_difference.hpp"
 #include "support/forces.hpp"
 #include "support/grains.hpp"
@@ -137,6 +138,53 @@ TEST(InternalForce, HasASymmetricStiffness)
         const Grains grains = random_grains(random, material, 1, 30);
         const Eigen::MatrixXd K = stiffness(grains[0]);
         EXPECT_LE((K - K.transpose()).norm(), 1e-8 * K.norm());
+    }
+}
+
+// At rest the stiffness is Hooke's, put together the obvious way. For displacements u, with t the trace of the strain e,
+//     u K u / 2 = sum over regions of V [ U'' / 2 (mean t)^2 + k / 2 mean (t - mean t)^2 ]
+//               + sum over points of V_p [ (lambda - U'') / 2 t^2 + mu e : e ],      k = 0.6 min(U'', 50 mu) in cut cells.
+TEST(InternalForce, HasTheStiffnessOfHookesLawAtRest)
+{
+    struct Moduli {
+        Material material;
+        double lambda, mu, volumetric; ///< U''(1)
+    };
+    const double nu = 0.4999, stiff = 2 * nu / (1 - 2 * nu) * 1e6; // over the bound of k
+    for (const auto& [material, lambda, mu, volumetric] :
+         { Moduli { neo_hookean(), 61e6, 1.26e6, 61e6 }, Moduli { { "Neo-Hookean", { stiff, 1e6 } }, stiff, 1e6, stiff },
+           Moduli { { "Mooney-Rivlin", { 0.4e6, 0.1e6, 6e6 } }, 12.4e6, 1e6, 12e6 } }) {
+        Grain<2> grain = make_grain(disc_mesh(60, 0.3, 0.1), material);
+        const Discretisation<2>& mesh = *grain.mesh;
+        const Eigen::MatrixXd E = extension(mesh);
+        Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * mesh.master_count, 2 * mesh.master_count);
+        for (const auto& region : mesh.regions) {
+            std::vector<Eigen::MatrixXd> gradient; // [point], rows du_x/dX, du_x/dY, du_y/dX, du_y/dY
+            Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(K.cols());
+            for (int b = region.first_block; b < region.first_block + region.block_count; ++b) {
+                const auto& block = mesh.blocks[size_t(b)];
+                for (int p = block.first_point; p < block.first_point + block.point_count; ++p) {
+                    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(4, K.cols());
+                    for (int k = 0; k < mesh.stencil; ++k)
+                        for (int i = 0; i < mesh.master_count; ++i)
+                            for (int c = 0; c < 2; ++c)
+                                B.block<2, 1>(2 * c, 2 * i + c) += E(block.node[size_t(k)], i) * mesh.gradient_at(block, p, k);
+                    gradient.push_back(B);
+                    mean += (B.row(0) + B.row(3)) / 4;
+                }
+            }
+            const double V = region.volume, k = region.full ? 0 : 0.6 * std::min(volumetric, 50 * mu);
+            K += V * volumetric * mean.transpose() * mean;
+            for (const auto& B : gradient) {
+                const Eigen::RowVectorXd trace = B.row(0) + B.row(3), shear = B.row(1) + B.row(2), off = trace - mean;
+                K += V / 4 * (k * off.transpose() * off + (lambda - volumetric) * trace.transpose() * trace);
+                K += V / 4 * mu * (2 * B.row(0).transpose() * B.row(0) + 2 * B.row(3).transpose() * B.row(3) + shear.transpose() * shear);
+            }
+        }
+        const Eigen::MatrixXd found = stiffness(grain);
+        std::printf("%s, lambda / mu = %.0f: stiffness within %.1e, symmetric within %.1e\n", material.law, lambda / mu,
+                    (found - K).norm() / K.norm(), (found - found.transpose()).norm() / K.norm());
+        EXPECT_LE((found - K).norm(), 1e-8 * K.norm()); // of the differences in stiffness()
     }
 }
 
