@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -40,14 +41,22 @@ public:
     const std::vector<double>& operator[](const std::string& name) const { return numbers_.at(name); }
     const std::vector<std::string>& words(const std::string& name) const { return words_.at(name); }
 
-    /// Linear between the rows.
+    /// Cubic through the two rows on either side. Straight lines between forces 1 % of squeeze apart are off by 0.2 %.
     double at(const std::string& key, double place, const std::string& name) const
     {
         const auto &x = numbers_.at(key), &y = numbers_.at(name);
-        size_t k = 1;
-        while (k + 1 < x.size() && x[k] < place)
-            ++k;
-        return y[k - 1] + (y[k] - y[k - 1]) * (place - x[k - 1]) / (x[k] - x[k - 1]);
+        size_t after = 1;
+        while (after + 1 < x.size() && x[after] < place)
+            ++after;
+        const size_t first = std::min(std::max<size_t>(after, 2) - 2, x.size() - 4);
+        double sum = 0;
+        for (size_t i = first; i < first + 4; ++i) {
+            double weight = 1;
+            for (size_t j = first; j < first + 4; ++j)
+                if (j != i) weight *= (place - x[j]) / (x[i] - x[j]);
+            sum += weight * y[i];
+        }
+        return sum;
     }
 
 private:
