@@ -45,7 +45,7 @@ public:
                     (Real, surfaceSpacing, 1.0, Attr::triggerPostLoad, "Largest distance between surface points [width of a grid cell]."))(
                     (Real,
                      nodeThreshold,
-                     0.05,
+                     0.03,
                      Attr::triggerPostLoad,
                      "Grid nodes lighter than this follow their neighbours [mass of the heaviest node]."))(
                     (Vector2r, gridOffset, Vector2r::Zero(), Attr::triggerPostLoad, "Shift of the grid under the grain [width of a grid cell].")),

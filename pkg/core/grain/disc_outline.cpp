@@ -49,11 +49,13 @@ Moments<2> DiscOutline::moments(const Box<2>& box) const
 
 std::vector<BoundaryPoint<2>> DiscOutline::sample(double spacing) const
 {
-    // an odd number: between two plates the sides gain points in turn, and the errors of their forces cancel
+    // The error of a contact's force is periodic in the place of its middle between two points. With an odd number of
+    // points, places on opposite sides differ by half a distance, and odd harmonics of that error cancel between two
+    // plates. The first point stands an eighth of a distance off the x axis, which takes the second one out along both axes.
     const int count = std::max(8, int(std::ceil(2 * M_PI / spacing - 1e-9))) | 1;
     std::vector<BoundaryPoint<2>> points(count);
     for (int i = 0; i < count; ++i) {
-        const double angle = 2 * M_PI * i / count;
+        const double angle = 2 * M_PI * (i + 0.125) / count;
         points[i] = { Vec<2>(std::cos(angle), std::sin(angle)), 2 * M_PI / count, false };
     }
     return points;

@@ -16,7 +16,7 @@ namespace softgrain {
 struct Resolution {
     int points = 276;               ///< material points wished for; the nearest layout is taken
     double surface_spacing = 1.0;   ///< largest distance of surface points [cell widths]
-    double node_threshold = 0.05;   ///< nodes with less mass follow their neighbours [mass of the heaviest node]
+    double node_threshold = 0.03;   ///< nodes with less mass follow their neighbours [mass of the heaviest node]
     double merge_threshold = 0.35;  ///< cells filled less join a neighbour [volume of a cell]
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
 };

@@ -237,7 +237,7 @@ template <int Dim, class T, int L> SOFTGRAIN_INLINE void interpolate(const Kerne
 template <int Dim, class Law, class T>
 SOFTGRAIN_INLINE T stabilisation(const typename Discretisation<Dim>::Region& region, const T* p)
 {
-    return (region.full ? 0 : 0.6) * smaller(Law::volumetric_modulus(p), 50.0 * Law::shear_modulus(p));
+    return (region.full ? 0 : 0.8) * smaller(Law::volumetric_modulus(p), 50.0 * Law::shear_modulus(p));
 }
 
 /// f_i = - sum_p V_p P_p grad N_i (Vu et al. 2017, eq. 6, in the reference configuration) with the mean dilatation

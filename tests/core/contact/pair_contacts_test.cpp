@@ -149,7 +149,7 @@ TEST(PairContacts, ListsHoldWhenSpeedsJump) { tumble(surface_of(disc, 0.2), surf
 
 /// Two discs, the second to the right of the first, with a gap between their boundaries.
 struct Facing {
-    Surface<2> first = surface_of(disc, 0.2), second = surface_of(polar(44, [](double) { return 0.7; }));
+    Surface<2> first = surface_of(polar(33, [](double) { return 1.0; })), second = surface_of(polar(44, [](double) { return 0.7; }));
     PairContacts<2> pair;
     explicit Facing(double gap) { move(second, Vec<2>(1.7 + gap, 0), 0, 1); }
     void rest() { first.speed = second.speed = first.travel = second.travel = 0; }

@@ -3,6 +3,7 @@
 #include "support/random.hpp"
 #include "support/triangulation.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
 
 using namespace softgrain;
@@ -141,6 +142,27 @@ TEST(DiscOutline, SamplesTheCircleEvenly)
     }
     EXPECT_EQ(disc.sample(2 * M_PI / 41).size(), 41u) << "no more than the spacing asks for";
     EXPECT_EQ(disc.sample(2 * M_PI / 40).size(), 41u) << "an odd number";
+}
+
+// Seen along either axis from either side, the nearest point stands an eighth or three eighths of the distance beside the
+// axis, and on the opposite side the other of the two.
+TEST(DiscOutline, PlacesItsPointsBesideTheAxes)
+{
+    for (double spacing : { 0.5, 0.23, 0.2222, 0.1 }) {
+        const auto points = disc.sample(spacing);
+        std::array<double, 4> place;
+        for (int side = 0; side < 4; ++side) {
+            double nearest = 1;
+            for (const auto& point : points) {
+                const double angle = std::atan2(point.position.y(), point.position.x()) - side * M_PI / 2;
+                nearest = std::min(nearest, std::abs(std::remainder(angle, 2 * M_PI)) * points.size() / (2 * M_PI));
+            }
+            place[side] = nearest;
+            EXPECT_NEAR(std::abs(nearest - 0.25), 0.125, 1e-9) << points.size();
+        }
+        EXPECT_NEAR(place[0] + place[2], 0.5, 1e-9);
+        EXPECT_NEAR(place[1] + place[3], 0.5, 1e-9);
+    }
 }
 
 } // namespace
