@@ -3,6 +3,7 @@
 // 0.1 m/s, forces and squeezes averaged over the same windows of 1/2 per cent.
 #include "plates.hpp"
 #include "reference.hpp"
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,15 @@ using namespace softgrain::testing_support;
 namespace {
 
 struct Error {
-    double rms = 0, worst = 0, mean = 0; ///< of the force from 5 % squeeze on, relative
+    double rms = 0, worst = 0, mean = 0; ///< of the force from some squeeze on, relative
     int count = 0;
 };
 
-Error force_error(const Squeeze& run, const Table& table)
+Error force_error(const Squeeze& run, const Table& table, double from = 0.05)
 {
     Error error;
     for (const auto& window : run.windows) {
-        if (window.squeeze < 0.05) continue;
+        if (window.squeeze < from) continue;
         const double e = window.force / table.at("squeeze", window.squeeze, "F_N_per_m") - 1;
         error.rms += e * e;
         error.mean += e;
@@ -52,42 +53,102 @@ SqueezeCase with(const Material& material, int points, const std::array<double, 
     return c;
 }
 
-TEST(DiscBetweenPlates, ForceAgreesWithFiniteElementsAt276Points)
+std::array<double, 3> random_placing(Random& random)
+{
+    const double x = random.uniform(0, 1), y = random.uniform(0, 1);
+    return { x, y, random.uniform(0, 2 * M_PI) };
+}
+
+void print(const Named& law, const SqueezeCase& c, const Squeeze& run, const Error& error)
+{
+    std::printf("%s, %d points, offset %.2f %.2f, angle %.2f: force rms %.2f %%, mean %+.2f %%, worst %.2f %%; J >= %.2f; "
+                "deepest %.1e R; energy %+.1e; %d steps\n",
+                law.name, c.points, c.offset_x, c.offset_y, c.angle, 100 * error.rms, 100 * error.mean, 100 * error.worst,
+                run.min_J, -run.deepest / 1e-3, run.residual, run.steps);
+}
+
+// At 5 % squeeze the contact is 0.4 R wide, less than two cells: there the grid itself limits the force. Wider contacts are
+// asked for more.
+TEST(DiscBetweenPlates, ForceAgreesWithFiniteElementsAsPlacedByDefault)
 {
     for (const auto& law : laws) {
         const Table table(law.file);
-        for (const auto& placing : placings) {
-            const Squeeze run = squeeze(with(law.material, 276, placing));
-            const Error error = force_error(run, table);
-            std::printf("%s, 276 points, offset %.2f %.2f, angle %.1f: force rms %.2f %%, mean %+.2f %%, worst %.2f %%; J >= %.2f; "
-                        "deepest %.1e R; energy %+.1e; %d steps\n",
-                        law.name, placing[0], placing[1], placing[2], 100 * error.rms, 100 * error.mean, 100 * error.worst,
-                        run.min_J, -run.deepest / 1e-3, run.residual, run.steps);
-            EXPECT_EQ(error.count, 70); // 5 to 40 % in halves of a per cent
-            EXPECT_LE(error.rms, 0.03) << law.name;
-            EXPECT_LE(std::abs(run.residual), 2e-3) << law.name;
-            EXPECT_GE(run.deepest, -1e-3 * 1e-3) << law.name;
-        }
+        const SqueezeCase c = with(law.material, 276, placings[0]);
+        const Squeeze run = squeeze(c);
+        const Error error = force_error(run, table), wide = force_error(run, table, 0.075);
+        print(law, c, run, error);
+        std::printf("from 7.5 %% squeeze on: rms %.2f %%, worst %.2f %%\n", 100 * wide.rms, 100 * wide.worst);
+        EXPECT_EQ(error.count, 70); // 5 to 40 % in halves of a per cent
+        EXPECT_LE(error.rms, 0.006) << law.name;
+        EXPECT_LE(error.worst, 0.022) << law.name;
+        EXPECT_LE(wide.worst, 0.015) << law.name;
+        EXPECT_LE(std::abs(run.residual), 2e-3) << law.name;
+        EXPECT_GE(run.deepest, -1e-3 * 1e-3) << law.name;
+        for (size_t k = 1; k < run.windows.size(); ++k)
+            if (run.windows[k].squeeze > 0.05) { EXPECT_GT(run.windows[k].force, run.windows[k - 1].force) << law.name; }
     }
 }
 
-// The design's figures for quadratic splines: 0.94, 0.46, 0.09 % rms at 300, 600, 1200 points, order 2.6 in the cell width.
-// A factor of 4 in points halves the width: errors fall by 4 (order 2); half of that is asked for, single runs scatter.
-TEST(DiscBetweenPlates, ForceConverges)
+TEST(DiscBetweenPlates, ForceAgreesWithFiniteElementsHoweverPlaced)
 {
     for (const auto& law : laws) {
         const Table table(law.file);
-        double rms[3];
-        const int points[] { 124, 276, 1200 };
-        for (int k = 0; k < 3; ++k) {
-            double sum = 0;
-            for (size_t placing = 1; placing < 3; ++placing)
-                sum += std::pow(force_error(squeeze(with(law.material, points[k], placings[placing])), table).rms, 2);
-            rms[k] = std::sqrt(sum / 2);
+        Random random(12);
+        double sum = 0, worst = 0;
+        for (int k = 0; k < 12; ++k) {
+            const SqueezeCase c = with(law.material, 276, random_placing(random));
+            const Squeeze run = squeeze(c);
+            const Error error = force_error(run, table);
+            print(law, c, run, error);
+            EXPECT_LE(std::abs(run.residual), 2e-3) << law.name;
+            sum += error.rms * error.rms / 12;
+            worst = std::max(worst, error.worst);
         }
-        std::printf("%s: force rms %.2f, %.2f, %.2f %% at 124, 276, 1200 points\n", law.name, 100 * rms[0], 100 * rms[1], 100 * rms[2]);
-        EXPECT_LE(rms[2], rms[0] / 4) << law.name;
-        EXPECT_LE(rms[2], 0.01) << law.name;
+        std::printf("%s, 12 placings: force rms %.2f %%, worst %.2f %%\n", law.name, 100 * std::sqrt(sum), 100 * worst);
+        EXPECT_LE(std::sqrt(sum), 0.008) << law.name;
+        EXPECT_LE(worst, 0.05) << law.name;
+    }
+}
+
+// Quadratic splines on a grid that the boundary cuts, contact at points: order 2 in the cell width. Single runs scatter,
+// so the order is that of the line through the logarithms of rms errors over ten placings.
+TEST(DiscBetweenPlates, ForceConvergesWithOrder2)
+{
+    const std::vector<int> points { 124, 276, 556, 1200 };
+    for (const auto& law : laws) {
+        const Table table(law.file);
+        double x = 0, y = 0, xx = 0, xy = 0;
+        std::string found;
+        for (int count : points) {
+            double sum = 0;
+            Random random(3);
+            for (int k = 0; k < 10; ++k) {
+                const SqueezeCase c = with(law.material, count, random_placing(random));
+                sum += std::pow(force_error(squeeze(c), table).rms, 2) / 10;
+            }
+            found += " " + std::to_string(100 * std::sqrt(sum)) + " %";
+            const double h = std::log(disc_mesh(count)->cell_width), e = std::log(sum) / 2;
+            x += h;
+            y += e;
+            xx += h * h;
+            xy += h * e;
+        }
+        const double n = double(points.size()), order = (n * xy - x * y) / (n * xx - x * x);
+        std::printf("%s: force rms%s at 124, 276, 556, 1200 points: order %.2f\n", law.name, found.c_str(), order);
+        EXPECT_GE(order, 1.8) << law.name; // ten placings leave a scatter of 0.2
+    }
+}
+
+TEST(DiscBetweenPlates, ForceAgreesWithFiniteElementsAt2400Points)
+{
+    for (const auto& law : laws) {
+        const Table table(law.file);
+        const SqueezeCase c = with(law.material, 2400, placings[0]);
+        const Squeeze run = squeeze(c);
+        const Error error = force_error(run, table);
+        print(law, c, run, error);
+        EXPECT_LE(error.rms, 0.001) << law.name;
+        EXPECT_LE(error.worst, 0.0035) << law.name; // waves in the disc are part of it, at this speed some 0.1 %
     }
 }
 
@@ -104,8 +165,8 @@ TEST(DiscBetweenPlates, ShapeAgreesWithFiniteElements)
             width = std::max(width, std::abs(window.half_width / table.at("squeeze", s, "xmax_m") - 1));
         }
         std::printf("%s: A/A0 within %.1e, half-width within %.1e (relative)\n", law.name, area, width);
-        // the area loss is 1.9 % (NH) and 7 % (MR) at 40 % squeeze: 5 % of it
-        EXPECT_LE(area, 0.05 * (1 - table.at("squeeze", 0.4, "A_over_A0"))) << law.name;
+        // the area loss is 1.9 % (NH) and 7 % (MR) at 40 % squeeze: 2 % of it
+        EXPECT_LE(area, 0.02 * (1 - table.at("squeeze", 0.4, "A_over_A0"))) << law.name;
         EXPECT_LE(width, 0.01) << law.name;
     }
 }
