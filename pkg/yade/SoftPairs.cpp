@@ -88,7 +88,7 @@ void SoftPairs::refuseOverlaps() const
         }
         if (depth > 1e-3 * second.size)
             throw std::runtime_error(
-                    "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by " + softgrain::shown(depth)
+                    "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by " + softgrain::shown(depth, 2) // of sampled outlines
                     + " m where they were put; move them apart or make them smaller.");
     }
 }

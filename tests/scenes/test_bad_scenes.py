@@ -386,7 +386,7 @@ def added_later():
 
 
 OVERLAPS = [
-    ("two discs", overlapping(disc, lambda: disc(1.8e-3)), ["#0", "#1", "overlap", "0.000198", " m"]),
+    ("two discs", overlapping(disc, lambda: disc(1.8e-3)), ["#0", "#1", "overlap", "0.0002", " m"]),
     ("two discs in one place", overlapping(disc, disc), ["#0", "#1", "overlap"]),
     ("a disc inside another", overlapping(lambda: disc(radius=3e-3), lambda: disc(0.5e-3, radius=0.5e-3)),
      ["#0", "#1", "overlap", "0.003"]),

@@ -5,9 +5,10 @@
 
 namespace softgrain {
 
-std::string shown(double value)
+std::string shown(double value, int digits)
 {
     std::ostringstream text;
+    text.precision(digits);
     text << value;
     return text.str();
 }

@@ -26,7 +26,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A number as a sentence shows it: six significant digits.
-std::string shown(double value);
+/// A number as a sentence shows it, with so many significant digits.
+std::string shown(double value, int digits = 6);
 
 } // namespace softgrain

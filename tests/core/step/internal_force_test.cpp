@@ -143,7 +143,7 @@ TEST(InternalForce, HasASymmetricStiffness)
 
 // At rest the stiffness is Hooke's, put together the obvious way. For displacements u, with t the trace of the strain e,
 //     u K u / 2 = sum over regions of V [ U'' / 2 (mean t)^2 + k / 2 mean (t - mean t)^2 ]
-//               + sum over points of V_p [ (lambda - U'') / 2 t^2 + mu e : e ],      k = 0.6 min(U'', 50 mu) in cut cells.
+//               + sum over points of V_p [ (lambda - U'') / 2 t^2 + mu e : e ],      k = 0.8 min(U'', 50 mu) in cut cells.
 TEST(InternalForce, HasTheStiffnessOfHookesLawAtRest)
 {
     struct Moduli {
@@ -173,7 +173,7 @@ TEST(InternalForce, HasTheStiffnessOfHookesLawAtRest)
                     mean += (B.row(0) + B.row(3)) / 4;
                 }
             }
-            const double V = region.volume, k = region.full ? 0 : 0.6 * std::min(volumetric, 50 * mu);
+            const double V = region.volume, k = region.full ? 0 : 0.8 * std::min(volumetric, 50 * mu);
             K += V * volumetric * mean.transpose() * mean;
             for (const auto& B : gradient) {
                 const Eigen::RowVectorXd trace = B.row(0) + B.row(3), shear = B.row(1) + B.row(2), off = trace - mean;
