@@ -35,8 +35,8 @@ void SoftGrain::discretise()
         throw softgrain::UserError("SoftGrain: points = " + std::to_string(points) + " has to lie between 16 and 100000.");
     if (!(surfaceSpacing >= 0.1 && surfaceSpacing <= 4))
         throw softgrain::UserError("SoftGrain: surfaceSpacing = " + softgrain::shown(surfaceSpacing) + " has to lie between 0.1 and 4 cell widths.");
-    if (!(nodeThreshold >= 1e-4 && nodeThreshold <= 0.5))
-        throw softgrain::UserError("SoftGrain: nodeThreshold = " + softgrain::shown(nodeThreshold) + " has to lie between 0.0001 and 0.5.");
+    if (!(nodeThreshold == 0 || (nodeThreshold >= 1e-4 && nodeThreshold <= 0.5)))
+        throw softgrain::UserError("SoftGrain: nodeThreshold = " + softgrain::shown(nodeThreshold) + " has to lie between 0.0001 and 0.5, or be 0 to be chosen.");
     if (!gridOffset.allFinite()) throw softgrain::UserError("SoftGrain: gridOffset has to be finite, in cell widths; 0 is usual.");
     softgrain::Resolution resolution;
     resolution.points          = points;

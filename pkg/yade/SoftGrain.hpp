@@ -45,9 +45,9 @@ public:
                     (Real, surfaceSpacing, 1.0, Attr::triggerPostLoad, "Largest distance between surface points [width of a grid cell]."))(
                     (Real,
                      nodeThreshold,
-                     0.03,
+                     0,
                      Attr::triggerPostLoad,
-                     "Grid nodes lighter than this follow their neighbours [mass of the heaviest node]."))(
+                     "Grid nodes lighter than this follow their neighbours [mass of the heaviest node]; 0: 3 / points, but 0.03 to 0.05."))(
                     (Vector2r, gridOffset, Vector2r::Zero(), Attr::triggerPostLoad, "Shift of the grid under the grain [width of a grid cell].")),
             createIndex(),
             .def("pointCount", &SoftGrain::pointCount, "Number of material points [-].")

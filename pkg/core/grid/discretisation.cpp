@@ -153,7 +153,7 @@ template <int Dim> Discretisation<Dim>::Discretisation(const Outline<Dim>& outli
     cell_width = cells.width;
     place_points(cells);
     place_surface(outline, cells, resolution.surface_spacing * cell_width);
-    bind_slaves(resolution.node_threshold * *std::max_element(node_mass.begin(), node_mass.end()));
+    bind_slaves(resolution.threshold() * *std::max_element(node_mass.begin(), node_mass.end()));
     for (double mass : node_mass)
         inverse_mass.push_back(1 / mass);
     average_gradients();

@@ -5,6 +5,7 @@
 
 #include "grain/outline.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -16,9 +17,12 @@ namespace softgrain {
 struct Resolution {
     int points = 276;               ///< material points wished for; the nearest layout is taken
     double surface_spacing = 1.0;   ///< largest distance of surface points [cell widths]
-    double node_threshold = 0.03;   ///< nodes with less mass follow their neighbours [mass of the heaviest node]
+    double node_threshold = 0;      ///< nodes with less mass follow their neighbours [mass of the heaviest node]; 0: threshold() chooses
     double merge_threshold = 0.35;  ///< cells filled less join a neighbour [volume of a cell]
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
+
+    /// Light nodes soften narrow contacts, as they should be, but let the surface of a coarse grain wrinkle.
+    double threshold() const { return node_threshold > 0 ? node_threshold : std::clamp(3.0 / points, 0.03, 0.05); }
 };
 
 /// Surface points that a place on a face follows: in 2D the ends of its segment and one beyond each.

@@ -81,7 +81,7 @@ TEST(Layout, NodesBelowTheThresholdAreSlavesAndNoOthers)
     for (const auto& layout : layouts(random, { 60, 276 }, 5)) {
         const Discretisation<2>& mesh = *layout.mesh;
         const auto mass = bare_masses(mesh);
-        const double threshold = layout.resolution.node_threshold * *std::max_element(mass.begin(), mass.end());
+        const double threshold = layout.resolution.threshold() * *std::max_element(mass.begin(), mass.end());
         for (int i = 0; i < mesh.node_count(); ++i)
             EXPECT_EQ(mass[i] < threshold, i >= mesh.master_count) << layout.name << " node " << i << " " << mass[i];
     }
