@@ -15,14 +15,14 @@ constexpr double friction = 0.3;
 /// Lengths in radii R, times in sqrt(R / g).
 struct Incline {
     std::shared_ptr<const Discretisation<2>> mesh;
-    double height = 0;        ///< of the centre over the plane
-    double tangent = 0;       ///< of the angle of the incline
-    double stiffness = 100;   ///< shear modulus over density x g x R; Lame's first constant is as large
+    double height = 0;         ///< of the centre over the plane
+    double tangent = 0;        ///< of the angle of the incline
+    double stiffness = 100;    ///< shear modulus over density x g x R; Lame's first constant is as large
     double ramp = 6, tilt = 3; ///< times in which gravity comes, and in which it tilts
     double rest = 0.5;         ///< before the window
     double window = 2;         ///< time of measurement
-    double radius = 1;        ///< [m]
-    double gravity = 9.81;    ///< [m/s2]
+    double radius = 1;         ///< [m]
+    double gravity = 9.81;     ///< [m/s2]
 };
 
 struct Ride {
