@@ -13,7 +13,9 @@ void Bo1_SoftGrain_Aabb::go(const shared_ptr<Shape>&, shared_ptr<Bound>& bound, 
     if (!bound) bound = shared_ptr<Bound>(new Aabb);
     auto* state = softStateOf(*body);
     if (!state) {
-        Problems::note("soft grain #" + std::to_string(body->id) + ": its shape is a SoftGrain, its state has to be a SoftState; make it with softDisc or softPolygon.");
+        Problems::note(
+            "soft grain #" + std::to_string(body->id)
+            + ": its shape is a SoftGrain, its state has to be a SoftState; make it with softDisc or softPolygon.");
         bound->min = bound->max = se3.position;
         return;
     }
@@ -22,8 +24,8 @@ void Bo1_SoftGrain_Aabb::go(const shared_ptr<Shape>&, shared_ptr<Bound>& bound, 
         return;
     }
     const auto& surface = state->grain.surface;
-    const Real margin   = 0.01 * surface.size;
-    state->insideUntil  = 0;
+    const Real margin = 0.01 * surface.size;
+    state->insideUntil = 0;
     bound->min = Vector3r(surface.min[0] - margin, surface.min[1] - margin, se3.position[2] - surface.size);
     bound->max = Vector3r(surface.max[0] + margin, surface.max[1] + margin, se3.position[2] + surface.size);
 }

@@ -9,17 +9,12 @@ namespace yade {
 
 YADE_PLUGIN((Ig2_SoftGrain_SoftGrain_SoftGeom));
 
-bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(
-        const shared_ptr<Shape>&,
-        const shared_ptr<Shape>&,
-        const State& state1,
-        const State& state2,
-        const Vector3r&,
-        const bool&,
-        const shared_ptr<Interaction>& interaction)
+bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State& state1,
+                                          const State& state2, const Vector3r&, const bool&,
+                                          const shared_ptr<Interaction>& interaction)
 {
     if (!static_cast<const SoftState&>(state1).prepared() || !static_cast<const SoftState&>(state2).prepared()) return false;
-    const auto& first  = static_cast<const SoftState&>(state1).grain.surface;
+    const auto& first = static_cast<const SoftState&>(state1).grain.surface;
     const auto& second = static_cast<const SoftState&>(state2).grain.surface;
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);

@@ -9,25 +9,21 @@ namespace yade {
 
 YADE_PLUGIN((Ig2_Wall_SoftGrain_SoftGeom));
 
-bool Ig2_Wall_SoftGrain_SoftGeom::go(
-        const shared_ptr<Shape>& shape1,
-        const shared_ptr<Shape>&,
-        const State& state1,
-        const State& state2,
-        const Vector3r&,
-        const bool&,
-        const shared_ptr<Interaction>& interaction)
+bool Ig2_Wall_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>&, const State& state1,
+                                     const State& state2, const Vector3r&, const bool&,
+                                     const shared_ptr<Interaction>& interaction)
 {
     if (!static_cast<const SoftState&>(state2).prepared()) return false;
-    const auto& wall  = static_cast<const Wall&>(*shape1);
+    const auto& wall = static_cast<const Wall&>(*shape1);
     const auto& grain = static_cast<const SoftState&>(state2).grain;
     if (wall.axis > 1) return false;
     if (!state1.pos.allFinite() || !state1.vel.allFinite()) {
-        Problems::note("wall #" + std::to_string(interaction->id1) + ": its position or velocity is not finite; give finite numbers.");
+        Problems::note("wall #" + std::to_string(interaction->id1)
+                       + ": its position or velocity is not finite; give finite numbers.");
         return interaction->isReal();
     }
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
-    auto& geom     = static_cast<SoftGeom&>(*interaction->geom);
+    auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     geom.withPlane = true;
     const int side = wall.sense != 0 ? wall.sense : grain.motion.position[wall.axis] >= state1.pos[wall.axis] ? 1 : -1;
     Problems::guard([&] {

@@ -10,7 +10,8 @@ namespace yade {
 
 class Ip2_FrictMat_SoftMat_SoftPhys : public IPhysFunctor {
 public:
-    void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& interaction) override;
+    void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
+            const shared_ptr<Interaction>& interaction) override;
 
     FUNCTOR2D(FrictMat, SoftMat);
     YADE_CLASS_BASE_DOC_ATTRS(

@@ -15,8 +15,8 @@ bool Law2_SoftGeom_SoftPhys_ContactDynamics::go(shared_ptr<IGeom>& geom, shared_
     Handed& mine = byThread_[omp_get_thread_num()];
     if (mine.step != scene->iter) mine.pairs.clear();
     mine.step = scene->iter;
-    mine.pairs.push_back(
-            { interaction->id1, interaction->id2, boost::static_pointer_cast<SoftGeom>(geom), boost::static_pointer_cast<SoftPhys>(phys) });
+    mine.pairs.push_back({ interaction->id1, interaction->id2, boost::static_pointer_cast<SoftGeom>(geom),
+                           boost::static_pointer_cast<SoftPhys>(phys) });
     return true;
 }
 

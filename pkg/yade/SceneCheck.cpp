@@ -21,10 +21,11 @@ namespace {
         constexpr unsigned plane = State::DOF_X | State::DOF_Y | State::DOF_RZ;
         for (Body::id_t id : driver.ids)
             if (scene.bodies->exists(id))
-                if (const SoftState* state = softStateOf(*(*scene.bodies)[id]); state && (state->blockedDOFs & plane) != plane)
+                if (const SoftState* state = softStateOf(*(*scene.bodies)[id]);
+                    state && (state->blockedDOFs & plane) != plane)
                     throw std::runtime_error(
-                            driver.getClassName() + " drives soft grain #" + std::to_string(id)
-                            + ", which is free to move; set its state.blockedDOFs = 'xyZ', or take the engine off it.");
+                        driver.getClassName() + " drives soft grain #" + std::to_string(id)
+                        + ", which is free to move; set its state.blockedDOFs = 'xyZ', or take the engine off it.");
     }
 } // namespace
 
@@ -35,17 +36,19 @@ void requireSoftEngines(const Scene& scene)
     for (const auto& body : *scene.bodies) {
         if (softStateOf(*body)) needed.insert({ "Ig2_SoftGrain_SoftGrain_SoftGeom", "Ip2_SoftMat_SoftMat_SoftPhys" });
         const auto* wall = dynamic_cast<const Wall*>(body->shape.get());
-        const bool box   = dynamic_cast<const Box*>(body->shape.get()) != nullptr;
+        const bool box = dynamic_cast<const Box*>(body->shape.get()) != nullptr;
         if ((wall || box) && !dynamic_cast<const FrictMat*>(body->material.get()))
-            walls.push_back(
-                    "body #" + std::to_string(body->id) + ", a " + body->shape->getClassName() + (body->material ? " of " + body->material->getClassName() : " without material")
-                    + ", has no friction with soft grains; give it a FrictMat.");
+            walls.push_back("body #" + std::to_string(body->id) + ", a " + body->shape->getClassName()
+                            + (body->material ? " of " + body->material->getClassName() : " without material")
+                            + ", has no friction with soft grains; give it a FrictMat.");
         if (wall && wall->axis < 2) needed.insert("Ig2_Wall_SoftGrain_SoftGeom");
         if (box) needed.insert("Ig2_Box_SoftGrain_SoftGeom");
-        if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get())) needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
+        if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get()))
+            needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
     }
     if (needed.count("Ip2_SoftMat_SoftMat_SoftPhys") == 0) return; // no soft grains
-    if (scene.isPeriodic) throw std::runtime_error("O.periodic=True: periodic scenes are not supported for soft grains; use walls.");
+    if (scene.isPeriodic)
+        throw std::runtime_error("O.periodic=True: periodic scenes are not supported for soft grains; use walls.");
     if (!walls.empty()) throw std::runtime_error(walls.front());
     needed.insert("Law2_SoftGeom_SoftPhys_ContactDynamics");
 
@@ -57,8 +60,8 @@ void requireSoftEngines(const Scene& scene)
             ++integrators;
             inOrder = loops > 0;
         }
-        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get());
-            driver && (driver->getBaseClassName() == "KinematicEngine" || driver->getClassName() == "CombinedKinematicEngine"))
+        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get()); driver
+            && (driver->getBaseClassName() == "KinematicEngine" || driver->getClassName() == "CombinedKinematicEngine"))
             requireDriven(scene, *driver);
         if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
             ++loops;
@@ -72,16 +75,22 @@ void requireSoftEngines(const Scene& scene)
     }
     const std::string remedy = ", or take softEngines().";
     if (integrators == 0)
-        throw std::runtime_error("O.engines has no SoftIntegrator, or a dead one, so soft grains would not move; append SoftIntegrator()" + remedy);
+        throw std::runtime_error(
+            "O.engines has no SoftIntegrator, or a dead one, so soft grains would not move; append SoftIntegrator()"
+            + remedy);
     if (integrators > 1)
-        throw std::runtime_error(
-                "O.engines has " + std::to_string(integrators) + " SoftIntegrators, so soft grains would move several times a step; keep one.");
+        throw std::runtime_error("O.engines has " + std::to_string(integrators)
+                                 + " SoftIntegrators, so soft grains would move several times a step; keep one.");
     if (loops == 0)
-        throw std::runtime_error("O.engines has no InteractionLoop, or a dead one, so soft grains would pass through each other; add one" + remedy);
-    if (!needed.empty())
         throw std::runtime_error(
-                "O.engines lacks " + *needed.begin() + " in InteractionLoop, so soft grains would pass through other bodies; add it" + remedy);
-    if (!inOrder) throw std::runtime_error("SoftIntegrator stands before InteractionLoop in O.engines; put it behind, where contacts are known" + remedy);
+            "O.engines has no InteractionLoop, or a dead one, so soft grains would pass through each other; add one"
+            + remedy);
+    if (!needed.empty())
+        throw std::runtime_error("O.engines lacks " + *needed.begin()
+                                 + " in InteractionLoop, so soft grains would pass through other bodies; add it" + remedy);
+    if (!inOrder)
+        throw std::runtime_error(
+            "SoftIntegrator stands before InteractionLoop in O.engines; put it behind, where contacts are known" + remedy);
 }
 
 } // namespace yade

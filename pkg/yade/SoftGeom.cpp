@@ -20,7 +20,7 @@ void SoftGeom::preSave(SoftGeom&)
             savedNear.insert(savedNear.end(), { list, candidate.point, candidate.face });
             savedClear.insert(savedClear.end(), { candidate.place, candidate.clear_until });
         }
-    savedValid  = pair.memory.valid_until;
+    savedValid = pair.memory.valid_until;
     savedTravel = rigid.travel;
 }
 
@@ -29,15 +29,15 @@ void SoftGeom::postLoad(SoftGeom&)
     pair.memory = {};
     for (size_t i = 0; 2 * i + 1 < savedClear.size() && 3 * i + 2 < savedNear.size(); ++i)
         pair.memory.near[savedNear[3 * i] == 0 ? 0 : 1].push_back(
-                { savedNear[3 * i + 1], savedNear[3 * i + 2], savedClear[2 * i], savedClear[2 * i + 1] });
+            { savedNear[3 * i + 1], savedNear[3 * i + 2], savedClear[2 * i], savedClear[2 * i + 1] });
     pair.memory.valid_until = savedValid;
-    rigid.travel            = savedTravel;
+    rigid.travel = savedTravel;
     // which of the two lists is used shows at the next update; both start from the saved forces
     std::vector<softgrain::ContactPoint<2>> saved(savedForces.size());
     for (size_t i = 0; i < saved.size() && 2 * i + 1 < savedPoints.size(); ++i) {
-        saved[i].point     = savedPoints[2 * i];
+        saved[i].point = savedPoints[2 * i];
         saved[i].on_second = savedPoints[2 * i + 1] != 0;
-        saved[i].force     = savedForces[i];
+        saved[i].force = savedForces[i];
     }
     pair.points = plane.points = saved;
 }

@@ -25,8 +25,8 @@ namespace {
     class Stopwatch {
     public:
         explicit Stopwatch(std::vector<Real>& stages)
-                : stages_(stages)
-                , last_(Clock::now())
+            : stages_(stages)
+            , last_(Clock::now())
         {
         }
         void stage(int index)
@@ -46,7 +46,10 @@ namespace {
 
 SoftIntegrator::~SoftIntegrator() = default;
 
-int SoftIntegrator::threads() const { return ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads(); }
+int SoftIntegrator::threads() const
+{
+    return ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
+}
 
 void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 
@@ -61,7 +64,8 @@ void SoftIntegrator::action()
     try {
         advance(scene->dt);
     } catch (const softgrain::SimulationError& error) {
-        throw std::runtime_error("step " + std::to_string(scene->iter) + " (t = " + softgrain::shown(scene->time) + " s): " + error.what());
+        throw std::runtime_error("step " + std::to_string(scene->iter) + " (t = " + softgrain::shown(scene->time)
+                                 + " s): " + error.what());
     }
 }
 
@@ -74,17 +78,19 @@ void SoftIntegrator::advance(double dt)
     watch.stage(0);
 
     pairs_.pose(*scene, touchingPairs(), recovery);
-    if (fresh_) pairs_.refuseOverlaps();
+    if (fresh_)
+        pairs_.refuseOverlaps();
     else
         pairs_.refuseLeaksAtPoints(0.1);
-    if (std::exchange(interactionCount_, scene->interactions->size()) != scene->interactions->size() || scene->iter % checkInterval == 0)
+    if (std::exchange(interactionCount_, scene->interactions->size()) != scene->interactions->size()
+        || scene->iter % checkInterval == 0)
         refuseStrangers();
     watch.stage(1);
 
-    solver_.tolerance  = tolerance;
+    solver_.tolerance = tolerance;
     solver_.max_sweeps = maxSweeps;
-    solver_.threads    = threads();
-    iterations         = solver_.solve(pairs_.problem);
+    solver_.threads = threads();
+    iterations = solver_.solve(pairs_.problem);
     totalIterations += iterations;
     contactCount = int(pairs_.problem.contacts.size());
     contactIterations += Real(iterations) * contactCount;
@@ -123,7 +129,7 @@ void SoftIntegrator::finish(int grain, double dt)
     const auto& surface = state.grain.surface;
     if (const auto& bound = soft_.bodies[grain]->bound; bound && surface.travel >= state.insideUntil) {
         const Real ahead = softgrain::reach(surface, surface.speed, dt);
-        Real room        = std::numeric_limits<Real>::max();
+        Real room = std::numeric_limits<Real>::max();
         for (int d = 0; d < 2; ++d)
             room = std::min({ room, surface.min[d] - ahead - bound->min[d], bound->max[d] - surface.max[d] - ahead });
         if (room < 0) scene->doSort = true;
@@ -159,9 +165,9 @@ void SoftIntegrator::adopt()
     for (const auto& body : *scene->bodies) {
         const std::string kind = body->shape ? body->shape->getClassName() : "";
         if ((kind == "Wall" || kind == "Box") && !body->bound)
-            throw std::runtime_error(
-                    "body #" + std::to_string(body->id) + ", a " + kind + ", has no bounding box, so grains would pass through it; put Bo1_" + kind
-                    + "_Aabb() into InsertionSortCollider.");
+            throw std::runtime_error("body #" + std::to_string(body->id) + ", a " + kind
+                                     + ", has no bounding box, so grains would pass through it; put Bo1_" + kind
+                                     + "_Aabb() into InsertionSortCollider.");
     }
     std::vector<softgrain::Grain<2>*> grains;
     for (SoftState* state : soft_.states)
@@ -178,11 +184,12 @@ void SoftIntegrator::takeIn(const shared_ptr<Body>& body)
     if (state->outdated(*body)) state->renew(*body);
     fresh_ |= state->justPlaced;
     if (body->clumpId >= 0)
-        throw std::runtime_error("soft grain #" + std::to_string(body->id) + ": it belongs to a clump, and clumps are rigid; release it from the clump.");
+        throw std::runtime_error("soft grain #" + std::to_string(body->id)
+                                 + ": it belongs to a clump, and clumps are rigid; release it from the clump.");
     if (!body->bound)
-        throw std::runtime_error(
-                "soft grain #" + std::to_string(body->id)
-                + " has no bounding box, so contacts would be missed; put Bo1_SoftGrain_Aabb() into InsertionSortCollider, and that before SoftIntegrator.");
+        throw std::runtime_error("soft grain #" + std::to_string(body->id)
+                                 + " has no bounding box, so contacts would be missed; put Bo1_SoftGrain_Aabb() into "
+                                   "InsertionSortCollider, and that before SoftIntegrator.");
     soft_.place.resize(size_t(body->id) + 1, -1);
     soft_.place[body->id] = int(soft_.states.size());
     soft_.bodies.push_back(body);
@@ -194,26 +201,30 @@ void SoftIntegrator::requireStableStep()
 {
     if (scene->dt <= criticalStep) return;
     for (const auto& engine : scene->engines)
-        if (const auto* stepper = dynamic_cast<const SoftTimeStepper*>(engine.get()); stepper && stepper->active && !stepper->dead) {
+        if (const auto* stepper = dynamic_cast<const SoftTimeStepper*>(engine.get());
+            stepper && stepper->active && !stepper->dead) {
             scene->dt = stepper->safety * criticalStep;
             return;
         }
     throw std::runtime_error(
-            "O.dt = " + softgrain::shown(scene->dt) + " s is over the largest stable time step of the soft grains, "
-            + softgrain::shown(criticalStep) + " s; set O.dt below it, or put SoftTimeStepper() into O.engines.");
+        "O.dt = " + softgrain::shown(scene->dt) + " s is over the largest stable time step of the soft grains, "
+        + softgrain::shown(criticalStep) + " s; set O.dt below it, or put SoftTimeStepper() into O.engines.");
 }
 
 /// Attributes may be changed at any time.
 void SoftIntegrator::requireSaneAttributes() const
 {
     const auto demand = [](bool sane, const char* name, Real value, const char* range) {
-        if (!sane) throw std::runtime_error("SoftIntegrator: " + std::string(name) + " = " + softgrain::shown(value) + " has to " + range + ".");
+        if (!sane)
+            throw std::runtime_error("SoftIntegrator: " + std::string(name) + " = " + softgrain::shown(value) + " has to "
+                                     + range + ".");
     };
     demand(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "lie between 0 and 1");
     demand(maxSweeps > 0, "maxSweeps", maxSweeps, "be 1 or more");
     demand(recovery >= 0 && recovery <= 1, "recovery", recovery, "lie between 0 and 1");
     demand(checkInterval > 0, "checkInterval", checkInterval, "be 1 or more");
-    demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2], "be 0 and the others finite: grains stay in the xy-plane");
+    demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2],
+           "be 0 and the others finite: grains stay in the xy-plane");
 }
 
 /// Bodies that no functor brings into contact with soft grains.
@@ -222,12 +233,13 @@ void SoftIntegrator::refuseStrangers() const
     for (const auto& interaction : *scene->interactions) {
         if (interaction->isReal() || interaction->functorCache.geomExists) continue;
         const bool first = soft_.of(interaction->id1) >= 0;
-        const Body::id_t grain = first ? interaction->id1 : interaction->id2, otherId = first ? interaction->id2 : interaction->id1;
+        const Body::id_t grain = first ? interaction->id1 : interaction->id2,
+                         otherId = first ? interaction->id2 : interaction->id1;
         const auto& other = (*scene->bodies)[otherId];
         if (soft_.of(grain) < 0 || !other || !other->shape) continue;
-        throw std::runtime_error(
-                "soft grain #" + std::to_string(grain) + " meets body #" + std::to_string(otherId) + ", a " + other->shape->getClassName()
-                + ", and no functor knows their contact; soft grains touch soft grains, walls and boxes.");
+        throw std::runtime_error("soft grain #" + std::to_string(grain) + " meets body #" + std::to_string(otherId) + ", a "
+                                 + other->shape->getClassName()
+                                 + ", and no functor knows their contact; soft grains touch soft grains, walls and boxes.");
     }
 }
 
@@ -238,7 +250,8 @@ std::vector<TouchingPair> SoftIntegrator::touchingPairs() const
     for (const auto& engine : scene->engines)
         if (auto* loop = dynamic_cast<InteractionLoop*>(engine.get()))
             for (const auto& functor : loop->lawDispatcher->functors)
-                if (auto* law = dynamic_cast<Law2_SoftGeom_SoftPhys_ContactDynamics*>(functor.get())) law->handOver(scene->iter, pairs);
+                if (auto* law = dynamic_cast<Law2_SoftGeom_SoftPhys_ContactDynamics*>(functor.get()))
+                    law->handOver(scene->iter, pairs);
     return pairs;
 }
 
@@ -251,7 +264,7 @@ void SoftIntegrator::evaluate()
     adopt();
     if (!assembly_) return;
     assembly_->evaluate_stretch(threads());
-    evaluatedJ_  = minJ();
+    evaluatedJ_ = minJ();
     criticalStep = std::numeric_limits<Real>::max();
     for (SoftState* state : soft_.states)
         criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));
@@ -313,15 +326,11 @@ boost::python::tuple SoftIntegrator::contactProblem() const
 {
     const std::lock_guard<std::recursive_mutex> lock(guard_);
     const auto form = softgrain::matrix_form(pairs_.problem);
-    const auto& W   = form.W;
-    return boost::python::make_tuple(
-            asBytes(W.outerIndexPtr(), W.outerSize() + 1),
-            asBytes(W.innerIndexPtr(), W.nonZeros()),
-            asBytes(W.valuePtr(), W.nonZeros()),
-            asBytes(form.q.data(), form.q.size()),
-            asBytes(form.mu.data(), form.mu.size()),
-            asBytes(form.r.data(), form.r.size()),
-            asBytes(form.u.data(), form.u.size()));
+    const auto& W = form.W;
+    return boost::python::make_tuple(asBytes(W.outerIndexPtr(), W.outerSize() + 1), asBytes(W.innerIndexPtr(), W.nonZeros()),
+                                     asBytes(W.valuePtr(), W.nonZeros()), asBytes(form.q.data(), form.q.size()),
+                                     asBytes(form.mu.data(), form.mu.size()), asBytes(form.r.data(), form.r.size()),
+                                     asBytes(form.u.data(), form.u.size()));
 }
 
 boost::python::list SoftIntegrator::contacts() const

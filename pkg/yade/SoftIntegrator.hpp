@@ -102,8 +102,8 @@ private:
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
     softgrain::NonlinearGaussSeidel<2> solver_;
     size_t interactionCount_ = 0; ///< in the last step
-    bool fresh_ = false; ///< grains have come since the last step, or were moved by hand
-    Real evaluatedJ_ = 1; ///< smallest J when the stable step was evaluated
+    bool fresh_ = false;          ///< grains have come since the last step, or were moved by hand
+    Real evaluatedJ_ = 1;         ///< smallest J when the stable step was evaluated
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);

@@ -39,20 +39,20 @@ void SoftLoads::gather(Load& load, SoftState& state, const Vector3r& gravity, co
     if (state.touched()) state.heed();
     load.work += std::exchange(state.workByHand, 0);
     if (!force.allFinite() || !torque.allFinite() || force[2] != 0 || torque[0] != 0 || torque[1] != 0)
-        throw std::runtime_error(
-                "soft grain #" + std::to_string(grain.id)
-                + ": the force on it in O.forces has to be finite and in the xy-plane, the torque about z; soft grains stay in the plane.");
-    load.on                 = state.mass * gravity + Vector3r(force[0], force[1], torque[2]);
-    grain.acceleration      = force.head<2>() / state.mass;
+        throw std::runtime_error("soft grain #" + std::to_string(grain.id)
+                                 + ": the force on it in O.forces has to be finite and in the xy-plane, the torque about z; "
+                                   "soft grains stay in the plane.");
+    load.on = state.mass * gravity + Vector3r(force[0], force[1], torque[2]);
+    grain.acceleration = force.head<2>() / state.mass;
     grain.spin_acceleration = softgrain::rotation_rate(torque[2] / grain.motion.second_moment.trace());
-    const auto held         = state.held();
+    const auto held = state.held();
     for (int d = 0; d < 2; ++d)
         if (held[d]) {
-            load.on[d]            = -state.contactLoad[d];
+            load.on[d] = -state.contactLoad[d];
             grain.acceleration[d] = load.on[d] / state.mass - gravity[d];
         }
     if (held[2]) {
-        load.on[2]              = -state.contactLoad[2];
+        load.on[2] = -state.contactLoad[2];
         grain.spin_acceleration = softgrain::rotation_rate(load.on[2] / grain.motion.second_moment.trace());
     }
 }
@@ -62,21 +62,23 @@ void SoftLoads::gather(Load& load, SoftState& state, const Vector3r& gravity, co
 void SoftLoads::hold(int index, double dt)
 {
     SoftState& state = *soft_.states[index];
-    const auto held  = state.held();
+    const auto held = state.held();
     state.contactLoad.setZero();
     if (!held[0] && !held[1] && !held[2]) return;
-    auto& grain        = state.grain;
+    auto& grain = state.grain;
     const auto& motion = grain.motion;
-    Vector3r impulse   = Vector3r::Zero();
+    Vector3r impulse = Vector3r::Zero();
     for (int p = 0; p < grain.surface.count; ++p) {
         const softgrain::Vec<2> arm = grain.surface.x(p) - motion.position;
         const Real x = grain.surface.impulse[2 * p], y = grain.surface.impulse[2 * p + 1];
         impulse += Vector3r(x, y, arm[0] * y - arm[1] * x);
     }
     const Vector3r inertias(state.mass, state.mass, motion.second_moment.trace());
-    Vector3r lacking = Vector3r(state.vel[0], state.vel[1], state.angVel[2]) - rates(motion) - (dt * loads_[index].on + impulse).cwiseQuotient(inertias);
+    Vector3r lacking = Vector3r(state.vel[0], state.vel[1], state.angVel[2]) - rates(motion)
+        - (dt * loads_[index].on + impulse).cwiseQuotient(inertias);
     for (int k = 0; k < 3; ++k)
-        if (held[k]) state.contactLoad[k] = impulse[k] / dt;
+        if (held[k])
+            state.contactLoad[k] = impulse[k] / dt;
         else
             lacking[k] = 0;
     loads_[index].on += inertias.cwiseProduct(lacking) / dt;

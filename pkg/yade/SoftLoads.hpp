@@ -10,7 +10,7 @@ namespace yade {
 class SoftLoads {
 public:
     explicit SoftLoads(const SoftBodies& soft)
-            : soft_(soft)
+        : soft_(soft)
     {
     }
     /// Takes velocities set by hand, gravity [m/s²] and O.forces in. Throws on what is not finite or not in the plane.
@@ -25,7 +25,7 @@ public:
 private:
     struct Load {
         Vector3r on = Vector3r::Zero(); ///< x and y components [N/m], torque [N]
-        Real work   = 0;                ///< [J/m]
+        Real work = 0;                  ///< [J/m]
     };
     void gather(Load& load, SoftState& state, const Vector3r& gravity, const Vector3r& force, const Vector3r& torque);
 

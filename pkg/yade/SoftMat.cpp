@@ -22,9 +22,11 @@ const softgrain::LawKernels<2>& SoftMat::law() const
     const auto& kernels = softgrain::law_kernels<2>(lawName());
     const std::string name = getClassName() + (label.empty() ? "" : " '" + label + "'");
     if (!(density > 0) || !std::isfinite(density))
-        throw softgrain::UserError(name + ": density = " + softgrain::shown(density) + " kg/m3 has to be positive and finite.");
+        throw softgrain::UserError(name + ": density = " + softgrain::shown(density)
+                                   + " kg/m3 has to be positive and finite.");
     if (!(frictionAngle >= 0 && frictionAngle < M_PI / 2))
-        throw softgrain::UserError(name + ": frictionAngle = " + softgrain::shown(frictionAngle) + " rad has to lie in [0, pi/2).");
+        throw softgrain::UserError(name + ": frictionAngle = " + softgrain::shown(frictionAngle)
+                                   + " rad has to lie in [0, pi/2).");
     const std::string complaint = kernels.complaint(lawParameters().data());
     if (!complaint.empty()) throw softgrain::UserError(name + ": " + complaint + ", or its energy has no minimum at rest.");
     return kernels;

@@ -13,7 +13,8 @@ void SoftPairs::pose(const Scene& scene, std::vector<TouchingPair>&& touching, R
 {
     // The same order for every number of threads: by the first soft grain, and by the other body.
     const auto key = [&](const TouchingPair& pair) {
-        return soft_.of(pair.id1) >= 0 ? std::minmax(pair.id1, pair.id2) : std::pair<const int&, const int&>(pair.id2, pair.id1);
+        return soft_.of(pair.id1) >= 0 ? std::minmax(pair.id1, pair.id2)
+                                       : std::pair<const int&, const int&>(pair.id2, pair.id1);
     };
     const auto before = [&](const TouchingPair& a, const TouchingPair& b) { return key(a) < key(b); };
     if (!std::is_sorted(touching.begin(), touching.end(), before)) std::sort(touching.begin(), touching.end(), before);
@@ -32,19 +33,19 @@ void SoftPairs::pose(const Scene& scene, std::vector<TouchingPair>&& touching, R
             deepest = std::max(deepest, -point.gap / pair.size());
             const bool onSecond = pair.geom->withPlane || point.on_second;
             softgrain::Contact<2> contact;
-            contact.body      = onSecond ? pair.body2 : pair.body1;
-            contact.other     = onSecond ? pair.body1 : pair.body2;
-            contact.point     = point.point;
-            contact.face      = point.face;
-            contact.vertex    = point.vertex;
-            contact.weight    = point.weight;
-            contact.normal    = point.normal;
+            contact.body = onSecond ? pair.body2 : pair.body1;
+            contact.other = onSecond ? pair.body1 : pair.body2;
+            contact.point = point.point;
+            contact.face = point.face;
+            contact.vertex = point.vertex;
+            contact.weight = point.weight;
+            contact.normal = point.normal;
             contact.gap_speed = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt;
-            contact.drive     = softgrain::Vec<2>::Zero();
+            contact.drive = softgrain::Vec<2>::Zero();
             if (pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
             contact.friction = pair.phys->friction;
-            contact.law      = pair.phys->law;
-            contact.impulse  = scene.dt * point.force;
+            contact.law = pair.phys->law;
+            contact.impulse = scene.dt * point.force;
             problem.contacts.push_back(contact);
         }
 }
@@ -54,14 +55,15 @@ void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
     const int one = soft_.of(touching.id1), two = soft_.of(touching.id2);
     if (two < 0) return; // erased since
     Pair pair { std::move(touching), nullptr, soft_.states[two], nullptr, one, two };
-    if (one >= 0) pair.first = soft_.states[one];
+    if (one >= 0)
+        pair.first = soft_.states[one];
     else {
         const auto& other = (*scene.bodies)[pair.id1];
         if (!other) return;
         if (other->state->blockedDOFs != State::DOF_ALL)
-            throw std::runtime_error(
-                    "body #" + std::to_string(pair.id1) + ", a " + other->shape->getClassName() + ", is free to move and touches soft grain #"
-                    + std::to_string(pair.id2) + "; only fixed or driven ones can (fixed=True, or blockedDOFs='xyzXYZ').");
+            throw std::runtime_error("body #" + std::to_string(pair.id1) + ", a " + other->shape->getClassName()
+                                     + ", is free to move and touches soft grain #" + std::to_string(pair.id2)
+                                     + "; only fixed or driven ones can (fixed=True, or blockedDOFs='xyzXYZ').");
         pair.rigid = other->state.get();
         if (!pair.geom->withPlane) {
             pair.body1 = int(problem.bodies.size());
@@ -76,20 +78,21 @@ void SoftPairs::refuseOverlaps() const
     for (const Pair& pair : pairs_) {
         if (!pair.second->justPlaced && !(pair.first && pair.first->justPlaced)) continue;
         const auto& second = pair.second->grain.surface;
-        Real depth         = 0;
+        Real depth = 0;
         for (const auto& point : pair.geom->points())
             depth = std::max(depth, -point.gap);
         if (pair.first) { // the smaller may be inside the larger, where its points touch nothing
-            const auto& first         = pair.first->grain.surface;
-            const auto &larger        = first.size > second.size ? first : second, &smaller = first.size > second.size ? second : first;
-            const auto middle         = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;
-            const Real inside         = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle), 0.5).gap;
+            const auto& first = pair.first->grain.surface;
+            const auto &larger = first.size > second.size ? first : second,
+                       &smaller = first.size > second.size ? second : first;
+            const auto middle = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;
+            const Real inside = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle), 0.5).gap;
             if (inside > 0) depth = std::max(depth, inside + smaller.size);
         }
         if (depth > 1e-3 * second.size)
-            throw std::runtime_error(
-                    "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " overlap by " + softgrain::shown(depth, 2) // of sampled outlines
-                    + " m where they were put; move them apart or make them smaller.");
+            throw std::runtime_error("bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2)
+                                     + " overlap by " + softgrain::shown(depth, 2) // of sampled outlines
+                                     + " m where they were put; move them apart or make them smaller.");
     }
 }
 
@@ -111,11 +114,10 @@ void SoftPairs::refuseLeaks(Real most) const
 void SoftPairs::refuseLeak(const Pair& pair, Real depth, Real most) const
 {
     if (depth <= most * pair.size()) return;
-    throw softgrain::SimulationError(
-            "soft grain #" + std::to_string(pair.id2) + " and body #" + std::to_string(pair.id1) + " have sunk into each other by "
-            + softgrain::shown(depth / pair.size())
-            + " radii; likely causes: grains pressed beyond what their resolution can follow, an impact near the wave speed, or a body moved "
-              "by hand.");
+    throw softgrain::SimulationError("soft grain #" + std::to_string(pair.id2) + " and body #" + std::to_string(pair.id1)
+                                     + " have sunk into each other by " + softgrain::shown(depth / pair.size())
+                                     + " radii; likely causes: grains pressed beyond what their resolution can follow, an "
+                                       "impact near the wave speed, or a body moved by hand.");
 }
 
 void SoftPairs::deliver(Scene& scene)
@@ -126,21 +128,22 @@ void SoftPairs::deliver(Scene& scene)
         Real weight = 0, moment = 0;
         for (auto& point : pair.geom->points()) {
             const auto& contact = problem.contacts[index++];
-            point.force         = contact.impulse / scene.dt;
+            point.force = contact.impulse / scene.dt;
             if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
             auto& body = *problem.bodies[contact.body];
             for (int d = 0; d < 2; ++d) {
                 body.impulse[2 * contact.point + d] += contact.impulse[d];
                 if (contact.other >= 0)
                     for (int k = 0; k < softgrain::face_vertices<2>; ++k)
-                        problem.bodies[contact.other]->impulse[2 * contact.vertex[k] + d] -= contact.weight[k] * contact.impulse[d];
+                        problem.bodies[contact.other]->impulse[2 * contact.vertex[k] + d]
+                            -= contact.weight[k] * contact.impulse[d];
             }
             // on body id2
-            const bool onSecond           = contact.body == pair.body2;
+            const bool onSecond = contact.body == pair.body2;
             const softgrain::Vec<2> force = onSecond ? point.force : softgrain::Vec<2>(-point.force);
             const softgrain::Vec<2> along = force.dot(point.normal) * point.normal;
             const softgrain::Vec<2> where = body.x(contact.point);
-            const Real size               = along.norm();
+            const Real size = along.norm();
             normal += along;
             shear += force - along;
             place += size * where;
@@ -150,8 +153,8 @@ void SoftPairs::deliver(Scene& scene)
                 moment -= arm[0] * force[1] - arm[1] * force[0];
             }
         }
-        pair.phys->normalForce  = inSpace(normal);
-        pair.phys->shearForce   = inSpace(shear);
+        pair.phys->normalForce = inSpace(normal);
+        pair.phys->shearForce = inSpace(shear);
         pair.phys->contactPoint = weight > 0 ? inSpace(place / weight) : Vector3r::Zero();
         if (pair.rigid && weight > 0) {
             scene.forces.addForce(pair.id1, -inSpace(normal + shear));
@@ -167,8 +170,8 @@ boost::python::list SoftPairs::withForce() const
     for (const Pair& pair : pairs_) {
         const Vector3r force = pair.phys->normalForce + pair.phys->shearForce;
         if (pair.phys->normalForce.squaredNorm() == 0) continue;
-        touching.append(boost::python::make_tuple(
-                pair.id1, pair.id2, pair.phys->contactPoint, pair.phys->normalForce.normalized(), force));
+        touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint,
+                                                  pair.phys->normalForce.normalized(), force));
     }
     return touching;
 }

@@ -31,7 +31,7 @@ struct SoftBodies {
 class SoftPairs {
 public:
     explicit SoftPairs(const SoftBodies& soft)
-            : soft_(soft)
+        : soft_(soft)
     {
     }
 

@@ -30,14 +30,15 @@ namespace {
     void takeMaterial(const Body& body, softgrain::Grain<2>& grain)
     {
         const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
-        if (!material) throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
+        if (!material)
+            throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
         try {
             grain.law = &material->law();
         } catch (const softgrain::UserError& error) {
             throw softgrain::UserError(whose(body.id) + ": " + error.what());
         }
         grain.parameters = material->lawParameters();
-        grain.density    = material->density;
+        grain.density = material->density;
     }
 } // namespace
 
@@ -46,7 +47,7 @@ SoftState* softStateOf(const Body& body)
     // class indices are exact types: cheaper than dynamic casts, and nothing derives from these two; a rigid body of
     // a soft material has a SoftState too
     const bool soft = body.shape && body.shape->getClassIndex() == SoftGrain::getClassIndexStatic() && body.state
-            && body.state->getClassIndex() == SoftState::getClassIndexStatic();
+        && body.state->getClassIndex() == SoftState::getClassIndexStatic();
     return soft ? static_cast<SoftState*>(body.state.get()) : nullptr;
 }
 
@@ -56,7 +57,7 @@ void SoftState::prepare(const Body& body)
     auto* shape = static_cast<SoftGrain*>(body.shape.get());
     softgrain::Grain<2> fresh;
     try {
-        fresh.mesh   = shape->mesh();
+        fresh.mesh = shape->mesh();
         fresh.radius = shape->equivalentRadius();
     } catch (const softgrain::UserError& error) {
         throw softgrain::UserError(whose(body.id) + ": " + error.what());
@@ -69,31 +70,37 @@ void SoftState::prepare(const Body& body)
         if (!pos.allFinite() || !vel.allFinite() || !angVel.allFinite())
             throw softgrain::UserError(whose(body.id) + ": its position or velocity is not finite; give finite numbers.");
         if (!(std::abs(ori.norm() - 1) < 1e-3) || !((ori * Vector3r::UnitZ() - Vector3r::UnitZ()).norm() < 1e-6))
-            throw softgrain::UserError(whose(body.id) + ": its orientation has to be a turn about the z axis (a unit quaternion); soft grains stay in the xy-plane.");
+            throw softgrain::UserError(whose(body.id)
+                                       + ": its orientation has to be a turn about the z axis (a unit quaternion); soft "
+                                         "grains stay in the xy-plane.");
         if (vel[2] != 0 || angVel[0] != 0 || angVel[1] != 0)
-            throw softgrain::UserError(whose(body.id) + ": its velocity has to lie in the xy-plane and its spin along z; soft grains stay in the plane.");
+            throw softgrain::UserError(
+                whose(body.id)
+                + ": its velocity has to lie in the xy-plane and its spin along z; soft grains stay in the plane.");
         origin = pos.head<2>();
-        fresh.place(origin, ori.toRotationMatrix().topLeftCorner<2, 2>(), vel.head<2>(), softgrain::rotation_rate(angVel[2]));
+        fresh.place(origin, ori.toRotationMatrix().topLeftCorner<2, 2>(), vel.head<2>(),
+                    softgrain::rotation_rate(angVel[2]));
         refPos = pos;
         refOri = ori;
         justPlaced = true;
     } else {
         const size_t expected = 2 * size_t(fresh.mesh->master_count);
         if (format != currentFormat || nodeDisplacement.size() != expected || nodeVelocity.size() != expected)
-            throw softgrain::UserError(
-                    whose(body.id) + ": its saved state (format " + std::to_string(format) + ", " + std::to_string(nodeDisplacement.size())
-                    + " values) is of another version of softgrain, which expects format " + std::to_string(currentFormat) + " and " + std::to_string(expected)
-                    + " values; load it with the version that saved it.");
-        fresh.origin       = origin;
+            throw softgrain::UserError(whose(body.id) + ": its saved state (format " + std::to_string(format) + ", "
+                                       + std::to_string(nodeDisplacement.size())
+                                       + " values) is of another version of softgrain, which expects format "
+                                       + std::to_string(currentFormat) + " and " + std::to_string(expected)
+                                       + " values; load it with the version that saved it.");
+        fresh.origin = origin;
         fresh.displacement = nodeDisplacement;
-        fresh.velocity     = nodeVelocity;
+        fresh.velocity = nodeVelocity;
         fresh.refresh();
         fresh.elastic_energy();
         fresh.surface.travel = travel;
     }
-    grain   = fresh;
-    known_  = body.material;
-    mass    = grain.mass();
+    grain = fresh;
+    known_ = body.material;
+    mass = grain.mass();
     inertia = Vector3r::Constant(grain.motion.second_moment.trace());
     publish();
     if (loaded) {
@@ -106,7 +113,9 @@ bool SoftState::outdated(const Body& body) const
 {
     auto& shape = static_cast<SoftGrain&>(*body.shape);
     if (shape.mesh() != grain.mesh || shape.equivalentRadius() != grain.radius)
-        throw softgrain::UserError(whose(body.id) + ": its shape was changed, which a deformed grain cannot follow; erase the body and append a new one.");
+        throw softgrain::UserError(
+            whose(body.id)
+            + ": its shape was changed, which a deformed grain cannot follow; erase the body and append a new one.");
     if (body.material != known_) return true;
     const auto& material = static_cast<const SoftMat&>(*known_);
     return material.density != grain.density || material.lawParameters() != grain.parameters;
@@ -115,8 +124,8 @@ bool SoftState::outdated(const Body& body) const
 void SoftState::renew(const Body& body)
 {
     takeMaterial(body, grain);
-    known_  = body.material;
-    mass    = grain.mass();
+    known_ = body.material;
+    mass = grain.mass();
     grain.refresh();
     inertia = Vector3r::Constant(grain.motion.second_moment.trace());
 }
@@ -124,9 +133,11 @@ void SoftState::renew(const Body& body)
 void SoftState::setPosition(const Vector3r& value)
 {
     if (runs()) {
-        if (!value.allFinite()) throw softgrain::UserError(whose(grain.id) + ": its position was set to what is not finite; give finite numbers.");
+        if (!value.allFinite())
+            throw softgrain::UserError(whose(grain.id)
+                                       + ": its position was set to what is not finite; give finite numbers.");
         grain.translate(value.head<2>() - grain.motion.position);
-        origin     = grain.origin;
+        origin = grain.origin;
         justPlaced = Omega::instance().getScene()->doSort = true;
     }
     pos = value;
@@ -135,16 +146,21 @@ void SoftState::setPosition(const Vector3r& value)
 void SoftState::setOrientation(const Quaternionr& value)
 {
     if (runs() && !(std::abs(value.dot(ori)) > 1 - 1e-9))
-        throw softgrain::UserError(whose(grain.id) + ": a deformed grain cannot be turned by hand; set its ori before the first step, or its angVel.");
+        throw softgrain::UserError(
+            whose(grain.id)
+            + ": a deformed grain cannot be turned by hand; set its ori before the first step, or its angVel.");
     ori = value;
 }
 
 void SoftState::heed()
 {
-    if (!asked.vel.allFinite() || !asked.angVel.allFinite() || asked.vel[2] != 0 || asked.angVel[0] != 0 || asked.angVel[1] != 0)
-        throw softgrain::UserError(whose(grain.id) + ": its velocity has to be finite and in the xy-plane, its spin about z; soft grains stay in the plane.");
-    const Plane kick  = (asked.vel - published.vel).head<2>();
-    const Real turn   = asked.angVel[2] - published.angVel[2];
+    if (!asked.vel.allFinite() || !asked.angVel.allFinite() || asked.vel[2] != 0 || asked.angVel[0] != 0
+        || asked.angVel[1] != 0)
+        throw softgrain::UserError(
+            whose(grain.id)
+            + ": its velocity has to be finite and in the xy-plane, its spin about z; soft grains stay in the plane.");
+    const Plane kick = (asked.vel - published.vel).head<2>();
+    const Real turn = asked.angVel[2] - published.angVel[2];
     const auto before = grain.motion;
     grain.add_velocity(kick, softgrain::rotation_rate(turn));
     grain.refresh();
@@ -152,13 +168,14 @@ void SoftState::heed()
         if (asked.vel[i] != published.vel[i]) vel[i] = asked.vel[i];
     if (turn != 0) angVel[2] = asked.angVel[2];
     published = asked;
-    workByHand += mass * kick.dot(before.velocity + kick / 2) + turn * (before.angular_momentum[0] + turn * before.second_moment.trace() / 2);
+    workByHand += mass * kick.dot(before.velocity + kick / 2)
+        + turn * (before.angular_momentum[0] + turn * before.second_moment.trace() / 2);
 }
 
 void SoftState::publish()
 {
     const auto& motion = grain.motion;
-    pos.head<2>()      = motion.position;
+    pos.head<2>() = motion.position;
     for (int d = 0; d < 2; ++d)
         if (!(blockedDOFs & axisDOF(d))) vel[d] = motion.velocity[d];
     if (!(blockedDOFs & DOF_RZ)) angVel[2] = motion.angular_momentum[0] / motion.second_moment.trace();
@@ -168,7 +185,7 @@ void SoftState::publish()
     const auto& F = motion.mean_gradient;
     const Real c = F(0, 0) + F(1, 1), s = F(1, 0) - F(0, 1), size = std::sqrt(c * c + s * s);
     const Real w = std::sqrt(std::max(0.0, (1 + c / size) / 2)); // half angle, without trigonometry
-    ori          = Quaternionr(w, 0, 0, w > 1e-3 ? s / (2 * size * w) : std::copysign(1.0, s));
+    ori = Quaternionr(w, 0, 0, w > 1e-3 ? s / (2 * size * w) : std::copysign(1.0, s));
     ori.normalize();
 }
 
@@ -184,7 +201,8 @@ bool SoftState::runs()
 softgrain::Grain<2>& SoftState::current()
 {
     if (!runs())
-        throw softgrain::UserError("this SoftState belongs to no running scene yet: append its body to O.bodies and run a step first.");
+        throw softgrain::UserError(
+            "this SoftState belongs to no running scene yet: append its body to O.bodies and run a step first.");
     grain.pull();
     return grain;
 }
@@ -192,14 +210,14 @@ softgrain::Grain<2>& SoftState::current()
 void SoftState::preSave(SoftState&)
 {
     if (!prepared()) return;
-    savedPos    = pos;
-    savedVel    = vel;
+    savedPos = pos;
+    savedVel = vel;
     savedAngVel = angVel;
     if (touched()) heed();
     grain.pull();
     nodeDisplacement = grain.displacement;
-    nodeVelocity     = grain.velocity;
-    travel           = grain.surface.travel;
+    nodeVelocity = grain.velocity;
+    travel = grain.surface.travel;
 }
 
 boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }
@@ -219,7 +237,7 @@ boost::python::object SoftState::pointVolumes()
 Real SoftState::area()
 {
     const auto F = current().deformation_gradients();
-    Real sum     = 0;
+    Real sum = 0;
     for (size_t p = 0; p < F.size(); ++p)
         sum += grain.mesh->point_volume[p] * F[p].determinant();
     return sum * grain.radius * grain.radius;

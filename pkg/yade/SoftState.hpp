@@ -31,7 +31,10 @@ public:
     /// Changes the grain's velocity by that.
     void heed();
     /// Whether the motions along x and y and about z are blocked.
-    std::array<bool, 3> held() const { return { bool(blockedDOFs & DOF_X), bool(blockedDOFs & DOF_Y), bool(blockedDOFs & DOF_RZ) }; }
+    std::array<bool, 3> held() const
+    {
+        return { bool(blockedDOFs & DOF_X), bool(blockedDOFs & DOF_Y), bool(blockedDOFs & DOF_RZ) };
+    }
     void preSave(SoftState&);
 
     // what Python sees of State: other engines (NewtonIntegrator) change vel and angVel themselves
@@ -115,7 +118,7 @@ public:
 private:
     struct Velocities {
         Vector3r vel = Vector3r::Zero(), angVel = Vector3r::Zero();
-    } published, asked; ///< by publish(), and by Python since
+    } published, asked;                ///< by publish(), and by Python since
     shared_ptr<const Material> known_; ///< that the grain was set up with
 
     softgrain::Grain<2>& current();

@@ -13,7 +13,8 @@ YADE_PLUGIN((SoftTimeStepper));
 
 Real SoftTimeStepper::criticalStepOf(const softgrain::Grain<2>& grain)
 {
-    using Key = std::pair<std::shared_ptr<const softgrain::Discretisation<2>>, std::array<double, softgrain::max_parameters>>;
+    using Key
+        = std::pair<std::shared_ptr<const softgrain::Discretisation<2>>, std::array<double, softgrain::max_parameters>>;
     static std::map<std::pair<Key, const void*>, double> known;
     static std::mutex guard;
     const std::lock_guard<std::mutex> lock(guard);

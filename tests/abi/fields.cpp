@@ -15,16 +15,18 @@
 namespace yade::probe {
 
 // Sizes that no object of YADE's Python shows.
-static_assert(sizeof(Factorable) == 24 && sizeof(Serializable) == 24 && sizeof(Indexable) == 8 && sizeof(ClassFactory) == 168);
-static_assert(sizeof(DynlibDescriptor) == 56 && sizeof(TimingInfo) == 16 && sizeof(ForceContainer) == 304 && sizeof(Se3r) == 56);
+static_assert(sizeof(Factorable) == 24 && sizeof(Serializable) == 24 && sizeof(Indexable) == 8
+              && sizeof(ClassFactory) == 168);
+static_assert(sizeof(DynlibDescriptor) == 56 && sizeof(TimingInfo) == 16 && sizeof(ForceContainer) == 304
+              && sizeof(Se3r) == 56);
 static_assert(sizeof(OpenMPArrayAccumulator<Real>) == 64 && sizeof(InteractionContainer) == 192);
 
 // CLASS(name, size in YADE 2023.02a, (members)...); FIELD names a member otherwise than C++ does.
 #define FIELD(K, name, member) t[#K].fields[name] = field<K>([](K & o) -> auto& { return o.member; });
 #define MEMBER(r, K, m) FIELD(K, BOOST_PP_STRINGIZE(m), m)
-#define CLASS(K, bytes, members)                                                                                                           \
-    static_assert(sizeof(K) == bytes);                                                                                                     \
-    t[#K].size = bytes;                                                                                                                    \
+#define CLASS(K, bytes, members)                                                                                            \
+    static_assert(sizeof(K) == bytes);                                                                                      \
+    t[#K].size = bytes;                                                                                                     \
     BOOST_PP_SEQ_FOR_EACH(MEMBER, K, members)
 
 namespace {
@@ -36,7 +38,8 @@ namespace {
         FIELD(Engine, "execCount", timingInfo.nExec)
         CLASS(GlobalEngine, 104, )
         CLASS(PartialEngine, 128, (ids))
-        CLASS(PeriodicEngine, 184, (virtPeriod)(realPeriod)(iterPeriod)(nDo)(initRun)(firstIterRun)(virtLast)(realLast)(iterLast)(nDone))
+        CLASS(PeriodicEngine, 184,
+              (virtPeriod)(realPeriod)(iterPeriod)(nDo)(initRun)(firstIterRun)(virtLast)(realLast)(iterLast)(nDone))
         CLASS(TimeStepper, 112, (active)(timeStepUpdateInterval))
         CLASS(Dispatcher, 104, )
         CLASS(BoundDispatcher, 216, (functors)(activated)(sweepDist)(minSweepDistFactor)(updatingDispFactor)(targetInterv))
@@ -68,11 +71,12 @@ namespace {
         CLASS(Material, 80, (id)(label)(density))
         CLASS(ElastMat, 96, (young)(poisson))
         CLASS(FrictMat, 104, (frictionAngle))
-        CLASS(State, 320, (pos)(ori)(se3)(vel)(mass)(angVel)(angMom)(inertia)(refPos)(refOri)(blockedDOFs)(isDamped)(densityScaling))
+        CLASS(State, 320,
+              (pos)(ori)(se3)(vel)(mass)(angVel)(angMom)(inertia)(refPos)(refOri)(blockedDOFs)(isDamped)(densityScaling))
         CLASS(Body, 176, (id)(groupMask)(flags)(subdomain)(material)(state)(shape)(bound)(clumpId)(iterBorn)(timeBorn))
-        CLASS(BodyContainer,
-              200,
-              (dirty)(checkedByCollider)(insertedBodies)(erasedBodies)(realBodies)(useRedirection)(enableRedirection)(subdomainBodies))
+        CLASS(
+            BodyContainer, 200,
+            (dirty)(checkedByCollider)(insertedBodies)(erasedBodies)(realBodies)(useRedirection)(enableRedirection)(subdomainBodies))
     }
 
     void interactions(Table& t)
@@ -88,13 +92,13 @@ namespace {
 
     void scene(Table& t)
     {
-        CLASS(Cell, 1104, (trsf)(refHSize)(hSize)(prevHSize)(velGrad)(nextVelGrad)(prevVelGrad)(homoDeform)(velGradChanged)(flipFlippable))
+        CLASS(
+            Cell, 1104,
+            (trsf)(refHSize)(hSize)(prevHSize)(velGrad)(nextVelGrad)(prevVelGrad)(homoDeform)(velGradChanged)(flipFlippable))
         CLASS(EnergyTracker, 176, )
-        CLASS(Scene,
-              752,
-              (dt)(iter)(subStepping)(subStep)(time)(speed)(stopAtIter)(stopAtTime)(isPeriodic)(trackEnergy)(doSort)(
-                      runInternalConsistencyChecks)(selectedBody)(subdomain)(subD)(tags)(engines)(_nextEngines)(energy)(materials)(
-                      bound)(cell)(miscParams))
+        CLASS(
+            Scene, 752,
+            (dt)(iter)(subStepping)(subStep)(time)(speed)(stopAtIter)(stopAtTime)(isPeriodic)(trackEnergy)(doSort)(runInternalConsistencyChecks)(selectedBody)(subdomain)(subD)(tags)(engines)(_nextEngines)(energy)(materials)(bound)(cell)(miscParams))
     }
 
 } // namespace

@@ -14,7 +14,10 @@ namespace yade::probe {
 
 template <class T> bool equal(const T& a, const T& b) { return a == b; }
 template <> inline bool equal(const Quaternionr& a, const Quaternionr& b) { return a.coeffs() == b.coeffs(); }
-template <> inline bool equal(const Se3r& a, const Se3r& b) { return a.position == b.position && equal(a.orientation, b.orientation); }
+template <> inline bool equal(const Se3r& a, const Se3r& b)
+{
+    return a.position == b.position && equal(a.orientation, b.orientation);
+}
 
 // An object of class T, by its name: works for classes that the declarations cannot construct.
 template <class T> shared_ptr<T> make()
@@ -27,7 +30,8 @@ template <class T> shared_ptr<T> make()
 template <class T> struct Distinct {
     static T value(int seed)
     {
-        if constexpr (std::is_same_v<T, bool>) return seed % 2;
+        if constexpr (std::is_same_v<T, bool>)
+            return seed % 2;
         else if constexpr (std::is_floating_point_v<T>)
             return seed + 0.25;
         else

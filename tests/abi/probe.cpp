@@ -34,7 +34,10 @@ shared_ptr<Serializable> created(const string& cls)
 }
 
 py::object distinct(const string& cls, const string& name, int seed) { return find(cls, name).distinct(seed); }
-bool holds(py::object self, const string& cls, const string& name, py::object value) { return find(cls, name).holds(self, value); }
+bool holds(py::object self, const string& cls, const string& name, py::object value)
+{
+    return find(cls, name).holds(self, value);
+}
 void write(py::object self, const string& cls, const string& name, py::object value) { find(cls, name).write(self, value); }
 bool same(const string& cls, const string& name, py::object a, py::object b) { return find(cls, name).same(a, b); }
 py::dict dictionary(const Serializable& self) { return self.pyDict(); }
@@ -45,14 +48,15 @@ py::dict answers(const shared_ptr<Serializable>& self)
 {
     py::dict said;
     said["class"] = self->getClassName();
-    said["base"]  = py::make_tuple(self->getBaseClassName(0), self->getBaseClassNumber());
+    said["base"] = py::make_tuple(self->getBaseClassName(0), self->getBaseClassNumber());
     if (const auto* o = dynamic_cast<Indexable*>(self.get())) {
         said["index"] = o->getClassIndex();
-        said["kin"]   = o->getMaxCurrentlyUsedClassIndexOfKin();
+        said["kin"] = o->getMaxCurrentlyUsedClassIndexOfKin();
         if (o->getClassIndex() >= 0) said["baseIndex"] = o->getBaseClassIndex(1);
     }
     if (auto* o = dynamic_cast<Engine*>(self.get())) said["activated"] = o->isActivated();
-    if (const auto* o = dynamic_cast<Dispatcher*>(self.get()); o && self->getClassName() != "Dispatcher") // that one terminates
+    if (const auto* o = dynamic_cast<Dispatcher*>(self.get());
+        o && self->getClassName() != "Dispatcher") // that one terminates
         said["dispatch"] = py::make_tuple(o->getDimension(), o->getFunctorType());
     if (const auto* o = dynamic_cast<Material*>(self.get()))
         said["state"] = py::make_tuple(o->newAssocState()->getClassName(), o->stateTypeOk(o->newAssocState().get()));
@@ -86,35 +90,33 @@ py::dict live()
         const bool found = scene.interactions->find(i->getId2(), i->getId1()) == i && (*scene.interactions)[i->linIx] == i;
         pairs.append(py::make_tuple(i->id1, i->id2, i->isReal(), found));
         if (i->isReal())
-            caches.append(py::make_tuple(
-                    i->functorCache.geomExists,
-                    i->functorCache.geom->getClassName(),
-                    i->functorCache.phys->getClassName(),
-                    i->functorCache.constLaw->getClassName()));
+            caches.append(py::make_tuple(i->functorCache.geomExists, i->functorCache.geom->getClassName(),
+                                         i->functorCache.phys->getClassName(), i->functorCache.constLaw->getClassName()));
     }
     for (const auto& e : scene.engines)
         if (const auto loop = boost::dynamic_pointer_cast<InteractionLoop>(e))
-            seen["loop"] = py::make_tuple(
-                    names(loop->geomDispatcher->functors), names(loop->physDispatcher->functors), names(loop->lawDispatcher->functors));
+            seen["loop"] = py::make_tuple(names(loop->geomDispatcher->functors), names(loop->physDispatcher->functors),
+                                          names(loop->lawDispatcher->functors));
     py::dict energies;
     for (const auto& name : scene.energy->names)
         energies[name.first] = scene.energy->energies.get(name.second);
-    seen["ids"]           = ids;
-    seen["size"]          = scene.bodies->size();
-    seen["exists"]        = py::make_tuple(scene.bodies->exists(0), scene.bodies->exists(100000));
-    seen["forces"]        = forces;
-    seen["lastReset"]     = scene.forces.lastReset;
-    seen["synced"]        = scene.forces.synced;
-    seen["threads"]       = scene.forces.getNumAllocatedThreads();
-    seen["intrs"]         = intrs;
-    seen["pairs"]         = pairs;
-    seen["interactions"]  = scene.interactions->size();
+    seen["ids"] = ids;
+    seen["size"] = scene.bodies->size();
+    seen["exists"] = py::make_tuple(scene.bodies->exists(0), scene.bodies->exists(100000));
+    seen["forces"] = forces;
+    seen["lastReset"] = scene.forces.lastReset;
+    seen["synced"] = scene.forces.synced;
+    seen["threads"] = scene.forces.getNumAllocatedThreads();
+    seen["intrs"] = intrs;
+    seen["pairs"] = pairs;
+    seen["interactions"] = scene.interactions->size();
     seen["boundFunctors"] = functors;
-    seen["caches"]        = caches;
-    seen["energies"]      = energies;
-    seen["energy"]        = scene.energy->total();
-    seen["cell"]          = py::make_tuple(scene.cell->getSize(), scene.cell->getVolume(), scene.cell->getShearTrsf(), scene.cell->hasShear());
-    seen["locks"]         = py::make_tuple(scene.bodies->drawloopmutex.try_lock(), scene.interactions->drawloopmutex.try_lock());
+    seen["caches"] = caches;
+    seen["energies"] = energies;
+    seen["energy"] = scene.energy->total();
+    seen["cell"]
+        = py::make_tuple(scene.cell->getSize(), scene.cell->getVolume(), scene.cell->getShearTrsf(), scene.cell->hasShear());
+    seen["locks"] = py::make_tuple(scene.bodies->drawloopmutex.try_lock(), scene.interactions->drawloopmutex.try_lock());
     scene.bodies->drawloopmutex.unlock();
     scene.interactions->drawloopmutex.unlock();
     return seen;
@@ -131,7 +133,10 @@ py::dict members(Clump& clump)
 py::tuple facet(Facet& f) { return py::make_tuple(f.ne[0], f.icr, f.vl[2], f.vu[1]); }
 Real match(const MatchMaker& m, int id1, int id2, Real v1, Real v2) { return m(id1, id2, v1, v2); }
 void requestErase(int id1, int id2) { Omega::instance().getScene()->interactions->requestErase(id1, id2); }
-bool stateLock(State& s) { return s.updateMutex.try_lock() && (s.updateMutex.unlock(), &s.pos == &s.se3.position && &s.ori == &s.se3.orientation); }
+bool stateLock(State& s)
+{
+    return s.updateMutex.try_lock() && (s.updateMutex.unlock(), &s.pos == &s.se3.position && &s.ori == &s.se3.orientation);
+}
 
 void expose()
 {

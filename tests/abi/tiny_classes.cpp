@@ -85,8 +85,8 @@ public:
     {
         if (!bound) bound = shared_ptr<Bound>(new Aabb);
         const Vector3r half = Vector3r::Constant(static_cast<TinyShape*>(shape.get())->radius);
-        bound->min          = se3.position - half;
-        bound->max          = se3.position + half;
+        bound->min = se3.position - half;
+        bound->max = se3.position + half;
     }
     FUNCTOR1D(TinyShape);
     YADE_CLASS_BASE_DOC(Bo1_TinyShape_Aabb, BoundFunctor, "Bound of a ball.");
@@ -99,8 +99,8 @@ namespace {
         if (overlap < 0 && !interaction->isReal()) return false;
         if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new TinyGeom);
         TinyGeom& geom = static_cast<TinyGeom&>(*interaction->geom);
-        geom.overlap   = overlap;
-        geom.normal    = normal;
+        geom.overlap = overlap;
+        geom.normal = normal;
         return true;
     }
 }
@@ -109,17 +109,11 @@ class Ig2_TinyShape_TinyShape_TinyGeom : public IGeomFunctor {
 public:
     std::atomic<int> preSteps { 0 };
     void preStep() override { preSteps++; }
-    bool
-    go(const shared_ptr<Shape>& shape1,
-       const shared_ptr<Shape>& shape2,
-       const State& state1,
-       const State& state2,
-       const Vector3r& shift,
-       const bool&,
-       const shared_ptr<Interaction>& interaction) override
+    bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
+            const Vector3r& shift, const bool&, const shared_ptr<Interaction>& interaction) override
     {
         const Vector3r line = state2.pos + shift - state1.pos;
-        const Real reach    = static_cast<TinyShape&>(*shape1).radius + static_cast<TinyShape&>(*shape2).radius;
+        const Real reach = static_cast<TinyShape&>(*shape1).radius + static_cast<TinyShape&>(*shape2).radius;
         return setGeom(interaction, reach - line.norm(), line.normalized());
     }
     FUNCTOR2D(TinyShape, TinyShape);
@@ -130,28 +124,17 @@ REGISTER_SERIALIZABLE(Ig2_TinyShape_TinyShape_TinyGeom);
 
 class Ig2_Wall_TinyShape_TinyGeom : public IGeomFunctor {
 public:
-    bool
-    go(const shared_ptr<Shape>& wall,
-       const shared_ptr<Shape>& ball,
-       const State& wallState,
-       const State& ballState,
-       const Vector3r&,
-       const bool&,
-       const shared_ptr<Interaction>& interaction) override
+    bool go(const shared_ptr<Shape>& wall, const shared_ptr<Shape>& ball, const State& wallState, const State& ballState,
+            const Vector3r&, const bool&, const shared_ptr<Interaction>& interaction) override
     {
-        const int axis      = static_cast<Wall&>(*wall).axis;
+        const int axis = static_cast<Wall&>(*wall).axis;
         const Real distance = ballState.pos[axis] - wallState.pos[axis];
-        return setGeom(
-                interaction, static_cast<TinyShape&>(*ball).radius - std::abs(distance), Vector3r::Unit(axis) * (distance < 0 ? -1 : 1));
+        return setGeom(interaction, static_cast<TinyShape&>(*ball).radius - std::abs(distance),
+                       Vector3r::Unit(axis) * (distance < 0 ? -1 : 1));
     }
-    bool goReverse(
-            const shared_ptr<Shape>& ball,
-            const shared_ptr<Shape>& wall,
-            const State& ballState,
-            const State& wallState,
-            const Vector3r& shift,
-            const bool& force,
-            const shared_ptr<Interaction>& interaction) override
+    bool goReverse(const shared_ptr<Shape>& ball, const shared_ptr<Shape>& wall, const State& ballState,
+                   const State& wallState, const Vector3r& shift, const bool& force,
+                   const shared_ptr<Interaction>& interaction) override
     {
         interaction->swapOrder();
         return go(wall, ball, wallState, ballState, -shift, force, interaction);
@@ -164,11 +147,12 @@ REGISTER_SERIALIZABLE(Ig2_Wall_TinyShape_TinyGeom);
 
 class Ip2_TinyMat_TinyMat_TinyPhys : public IPhysFunctor {
 public:
-    void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction) override
+    void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
+            const shared_ptr<Interaction>& interaction) override
     {
         if (interaction->phys) return;
         shared_ptr<TinyPhys> phys(new TinyPhys);
-        phys->k           = std::min(static_cast<TinyMat&>(*m1).stiffness, static_cast<TinyMat&>(*m2).stiffness);
+        phys->k = std::min(static_cast<TinyMat&>(*m1).stiffness, static_cast<TinyMat&>(*m2).stiffness);
         interaction->phys = phys;
     }
     FUNCTOR2D(TinyMat, TinyMat);
@@ -240,8 +224,7 @@ public:
 };
 REGISTER_SERIALIZABLE(TinyStepper);
 
-YADE_PLUGIN((TinyShape)(TinyState)(TinyMat)(TinyGeom)(TinyPhys)(Bo1_TinyShape_Aabb)(Ig2_TinyShape_TinyShape_TinyGeom)(
-        Ig2_Wall_TinyShape_TinyGeom)(Ip2_TinyMat_TinyMat_TinyPhys)(Law2_TinyGeom_TinyPhys_Spring)(TinyEngine)(TinyPeriodic)(TinyPartial)(
-        TinyStepper));
+YADE_PLUGIN((
+    TinyShape)(TinyState)(TinyMat)(TinyGeom)(TinyPhys)(Bo1_TinyShape_Aabb)(Ig2_TinyShape_TinyShape_TinyGeom)(Ig2_Wall_TinyShape_TinyGeom)(Ip2_TinyMat_TinyMat_TinyPhys)(Law2_TinyGeom_TinyPhys_Spring)(TinyEngine)(TinyPeriodic)(TinyPartial)(TinyStepper));
 
 } // namespace yade

@@ -25,7 +25,8 @@ double plate_frequency(double lambda, double mu)
     const auto f = [&](double omega) {
         const double s = std::sqrt(k2 - omega * omega * density / (lambda + 2 * mu));
         const double q = std::sqrt(omega * omega * density / mu - k2);
-        return std::pow(q * q - k2, 2) * std::cosh(s * a) * std::sin(q * a) / q - 4 * k2 * s * std::sinh(s * a) * std::cos(q * a);
+        return std::pow(q * q - k2, 2) * std::cosh(s * a) * std::sin(q * a) / q
+            - 4 * k2 * s * std::sinh(s * a) * std::cos(q * a);
     };
     double lo = 0.97 * wave_number * bar_speed(lambda, mu), hi = wave_number * bar_speed(lambda, mu);
     for (int k = 0; k < 60; ++k) {
@@ -79,7 +80,8 @@ Bar vibrate(const Material& material, int cells_across_height)
 // some 5 % of the sum of both.
 TEST(VibratingBar, HasTheFrequencyOfTheLowestPlateWave)
 {
-    for (const auto& [name, material] : { std::pair("nu = 0.25", soft_neo_hookean()), std::pair("nu = 0.49", neo_hookean()) }) {
+    for (const auto& [name, material] :
+         { std::pair("nu = 0.25", soft_neo_hookean()), std::pair("nu = 0.49", neo_hookean()) }) {
         const double lambda = material.parameters[0], mu = material.parameters[1];
         const double expected = plate_frequency(lambda, mu), long_wave = wave_number * bar_speed(lambda, mu);
         std::printf("%s: %.2f Hz of long waves, sqrt(E' / rho) / 2 L; %.2f Hz with lateral inertia (%+.3f %%)\n", name,

@@ -71,16 +71,26 @@ void compare(const std::string& name, const std::string& key, const std::functio
 
 Mat<2> stretches(double x, double y) { return Vec<2>(x, y).asDiagonal(); }
 
-TEST(ClosedForms, UniaxialStrain) { compare("C_uniaxial_strain.csv", "s", [](double s) { return stretches(1, s); }); }
-TEST(ClosedForms, EquibiaxialStrain) { compare("C_equibiaxial_strain.csv", "s", [](double s) { return stretches(s, s); }); }
-TEST(ClosedForms, IsochoricBiaxialStrain) { compare("C_biaxial_isochoric.csv", "s", [](double s) { return stretches(1 / s, s); }); }
+TEST(ClosedForms, UniaxialStrain)
+{
+    compare("C_uniaxial_strain.csv", "s", [](double s) { return stretches(1, s); });
+}
+TEST(ClosedForms, EquibiaxialStrain)
+{
+    compare("C_equibiaxial_strain.csv", "s", [](double s) { return stretches(s, s); });
+}
+TEST(ClosedForms, IsochoricBiaxialStrain)
+{
+    compare("C_biaxial_isochoric.csv", "s", [](double s) { return stretches(1 / s, s); });
+}
 TEST(ClosedForms, SimpleShear)
 {
     compare("C_simple_shear.csv", "g", [](double g) { return (Mat<2>() << 1, g, 0, 1).finished(); });
 }
 TEST(ClosedForms, RotatedUniaxialStrain)
 {
-    compare("C_rotated_uniaxial_s0.8.csv", "theta_rad", [](double theta) { return Mat<2>(turn(theta) * stretches(1, 0.8)); });
+    compare("C_rotated_uniaxial_s0.8.csv", "theta_rad",
+            [](double theta) { return Mat<2>(turn(theta) * stretches(1, 0.8)); });
 }
 
 TEST(ClosedForms, UniaxialStressInPlaneStrain)

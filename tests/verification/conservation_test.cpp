@@ -17,7 +17,8 @@ TEST(Conservation, SpinsForAMillionSteps)
     World world;
     GrainStart start;
     start.velocity = Vec<2>(0.3, -0.2);
-    start.velocity_gradient = spin(8000) + (Mat<2>() << 2000, 0, 0, -2000).finished(); // centrifugal strain of 5 %, and a vibration
+    start.velocity_gradient
+        = spin(8000) + (Mat<2>() << 2000, 0, 0, -2000).finished(); // centrifugal strain of 5 %, and a vibration
     world.add(make_grain(disc_mesh(30), neo_hookean(), start));
     const double dt = 0.6 * critical_step(world.grains[0], unit_critical_step(world.grains[0]));
     world.step(dt);
@@ -42,8 +43,9 @@ TEST(Conservation, SpinsForAMillionSteps)
         spread += (p - 4.5) * (p - 4.5);
     }
     const double drift = slope / spread * parts;
-    std::printf("%d points, %d steps, %.0f turns: momentum %.1e, angular momentum %.1e, energy within %.1e, its drift %.1e\n",
-                world.grains[0].mesh->point_count(), steps, 8000 * world.time / (2 * M_PI), momentum, angular, worst, drift);
+    std::printf(
+        "%d points, %d steps, %.0f turns: momentum %.1e, angular momentum %.1e, energy within %.1e, its drift %.1e\n",
+        world.grains[0].mesh->point_count(), steps, 8000 * world.time / (2 * M_PI), momentum, angular, worst, drift);
     const double round_off = 4 * std::sqrt(double(steps)) * 0x1p-53 * 100; // random walk of 100 roundings a step
     EXPECT_LE(momentum, round_off);
     EXPECT_LE(std::abs(angular), round_off);
@@ -52,10 +54,10 @@ TEST(Conservation, SpinsForAMillionSteps)
 }
 
 struct Impact {
-    double momentum = 0, angular = 0, residual = 0; ///< over m |v|, m |v| R and the energy; largest of the run
-    double least_kinetic = 1, most_elastic = 0;     ///< shares of the energy, at closest approach
+    double momentum = 0, angular = 0, residual = 0;        ///< over m |v|, m |v| R and the energy; largest of the run
+    double least_kinetic = 1, most_elastic = 0;            ///< shares of the energy, at closest approach
     double restitution = 0, vibration = 0, dissipated = 0; ///< of centres; shares of the energy at the end
-    double touching = 0;                            ///< [s]
+    double touching = 0;                                   ///< [s]
 };
 
 /// Two discs of R = 0.2 m, E = 1000 Pa, nu = 0.3, rho = 1000 kg/m3 approach along a diagonal, (0.1, 0.1) m/s each (Sulsky, Chen
@@ -106,10 +108,11 @@ Impact collide(int points, double share)
 TEST(Conservation, TwoElasticDiscsCollide)
 {
     const auto print = [](const char* what, const Impact& i) {
-        std::printf("%s: momentum %.1e, angular momentum %.1e, energy residual %.1e; at closest kinetic %.4f, elastic %.4f; in touch "
+        std::printf("%s: momentum %.1e, angular momentum %.1e, energy residual %.1e; at closest kinetic %.4f, elastic %.4f; "
+                    "in touch "
                     "%.2f s; restitution %.4f, vibration %.4f, dissipated by contacts %.4f\n",
-                    what, i.momentum, i.angular, i.residual, i.least_kinetic, i.most_elastic, i.touching, i.restitution, i.vibration,
-                    i.dissipated);
+                    what, i.momentum, i.angular, i.residual, i.least_kinetic, i.most_elastic, i.touching, i.restitution,
+                    i.vibration, i.dissipated);
         EXPECT_LE(i.momentum, 1e-14); // of 500 to 1500 steps
         EXPECT_LE(i.angular, 1e-12);
     };
@@ -139,13 +142,15 @@ TEST(Conservation, AnElasticBarReboundsFromAWall)
     constexpr double length = 1e-2, height = 1e-3, density = 1000;
     const Material material = soft_neo_hookean();
     const double lambda = material.parameters[0], mu = material.parameters[1];
-    const double c = std::sqrt(4 * mu * (lambda + mu) / (lambda + 2 * mu) / density), speed = 1e-3 * c, passage = 2 * length / c;
+    const double c = std::sqrt(4 * mu * (lambda + mu) / (lambda + 2 * mu) / density), speed = 1e-3 * c,
+                 passage = 2 * length / c;
     const double mass = density * length * height, wave_force = density * c * speed * height;
     double before = 0;
     for (int across : { 4, 8 }) {
         Resolution resolution;
         resolution.points = 40 * across * across;
-        const auto mesh = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(length, height)), resolution);
+        const auto mesh
+            = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(length, height)), resolution);
         World world;
         GrainStart start;
         start.centre = Vec<2>(length / 2 + 0.1 * speed * passage, 0);
@@ -166,9 +171,10 @@ TEST(Conservation, AnElasticBarReboundsFromAWall)
             }
         }
         const double restitution = world.grains[0].motion.velocity.x() / speed;
-        std::printf("%d points: force %.4f of rho c v H, in touch %.4f of 2 L / c, restitution %.4f, dissipated by contacts %.1e\n",
-                    mesh->point_count(), plateau / plateau_time / wave_force, (last - first) / passage, restitution,
-                    world.balance.contact_dissipation / (mass * speed * speed / 2));
+        std::printf(
+            "%d points: force %.4f of rho c v H, in touch %.4f of 2 L / c, restitution %.4f, dissipated by contacts %.1e\n",
+            mesh->point_count(), plateau / plateau_time / wave_force, (last - first) / passage, restitution,
+            world.balance.contact_dissipation / (mass * speed * speed / 2));
         EXPECT_NEAR(plateau / plateau_time / wave_force, 1, 0.01);
         EXPECT_NEAR((last - first) / passage, 1, 0.05); // half of H / L
         EXPECT_NEAR(impulse / (mass * speed), 1 + restitution, 1e-12);

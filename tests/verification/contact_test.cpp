@@ -89,12 +89,14 @@ Indentation indent(const Material& material, int points, const Table* table)
 TEST(Hertz, ADiscBetweenPlatesHasTheForceAndWidthOfALineContact)
 {
     const Table table("A_plates_NH.csv");
-    for (const auto& [name, material] : { std::pair("nu = 0.25", soft_neo_hookean()), std::pair("nu = 0.49", neo_hookean()) })
+    for (const auto& [name, material] :
+         { std::pair("nu = 0.25", soft_neo_hookean()), std::pair("nu = 0.49", neo_hookean()) })
         for (int points : { 1200, 2400, 4800 }) {
             const bool tabulated = material.parameters == neo_hookean().parameters;
             const Indentation found = indent(material, points, tabulated ? &table : nullptr);
-            std::printf("%s, %d points, %d windows of 0.1 %% squeeze: force rms %.2f %%, worst %.2f %%; half-width rms %.1f %%", name, points,
-                        found.windows, 100 * found.force, 100 * found.worst, 100 * found.half_width);
+            std::printf(
+                "%s, %d points, %d windows of 0.1 %% squeeze: force rms %.2f %%, worst %.2f %%; half-width rms %.1f %%",
+                name, points, found.windows, 100 * found.force, 100 * found.worst, 100 * found.half_width);
             if (tabulated) std::printf("; force against finite elements rms %.2f %%", 100 * found.finite_elements);
             std::printf("\n");
             EXPECT_GE(found.windows, 10);
@@ -140,7 +142,8 @@ Bounce bounce(int discs, int points, double ratio)
         if (now > 0 && begin == 0) begin = world.time - dt;
         if (now > 0) end = world.time;
         result.deepest = std::max(result.deepest, 1 - grain.motion.position.y() / radius);
-        result.residual = std::max(result.residual, std::abs((world.energy() + world.balance.contact_dissipation) / first - 1));
+        result.residual
+            = std::max(result.residual, std::abs((world.energy() + world.balance.contact_dissipation) / first - 1));
     }
     EXPECT_EQ(world.problem.contacts.size(), 0u) << "apart again";
     result.restitution = grain.motion.velocity.y() / speed;
@@ -162,9 +165,11 @@ TEST(Rebound, OfADiscFromAWallIsThatOfTwoDiscs)
         for (int points : { 276, 1200, 4800 }) {
             const Bounce wall = bounce(1, points, speed), pair = bounce(2, points, speed);
             for (const auto& [name, b] : { std::pair("wall", wall), std::pair("disc", pair) }) {
-                std::printf("%s at %.2f c, %d points: restitution %.4f, vibration %.4f, dissipated %.4f, momentum %.1e, energy %.1e, "
+                std::printf("%s at %.2f c, %d points: restitution %.4f, vibration %.4f, dissipated %.4f, momentum %.1e, "
+                            "energy %.1e, "
                             "%.3f R / c in touch, approach %.4f R\n",
-                            name, speed, points, b.restitution, b.vibration, b.dissipated, b.momentum, b.residual, b.duration, b.deepest);
+                            name, speed, points, b.restitution, b.vibration, b.dissipated, b.momentum, b.residual,
+                            b.duration, b.deepest);
                 EXPECT_LE(std::abs(b.momentum), 1e-13);
                 EXPECT_LE(b.residual, 0.01 * speed); // finite strain, see doc/theory.md, section 7
                 EXPECT_GT(b.vibration, 0);
@@ -219,7 +224,8 @@ Rest settle(World& world, double unit)
             result.plane[w] += std::abs(world.plane_force[w][world.planes[w].axis]);
         for (const auto& contact : world.problem.contacts)
             if (contact.other >= 0)
-                result.pair[size_t(std::min(contact.body, contact.other)) * count + size_t(std::max(contact.body, contact.other))]
+                result.pair[size_t(std::min(contact.body, contact.other)) * count
+                            + size_t(std::max(contact.body, contact.other))]
                     += std::abs(contact.impulse.y()) / dt;
         const int half = world.time > (begin + end) / 2 * unit;
         ++halves[half];
@@ -267,7 +273,8 @@ TEST(Stack, OfBlocksCarriesTheWeightAboveEachContact)
             const double size = (1 - 0.15 * k) * radius, half = std::sqrt(M_PI) / 2 * size;
             start.centre = Vec<2>(0, top + half);
             top += 2 * half;
-            weight += world.add(make_grain(mesh, { "Neo-Hookean", { modulus, modulus } }, start, size, density)).mass() * gravity;
+            weight += world.add(make_grain(mesh, { "Neo-Hookean", { modulus, modulus } }, start, size, density)).mass()
+                * gravity;
         }
         world.planes = { { 1, 1, 0, 0 } };
         const Rest rest = settle(world, std::sqrt(radius / gravity));
@@ -277,15 +284,17 @@ TEST(Stack, OfBlocksCarriesTheWeightAboveEachContact)
             above -= world.grains[k].mass() * gravity;
             error.push_back(rest.pair[4 * k + k + 1] / above - 1);
         }
-        std::printf("solver to %.0e: forces over the weight above less 1: floor %.1e, blocks %.1e, %.1e, %.1e\n", tolerance, error[0],
-                    error[1], error[2], error[3]);
+        std::printf("solver to %.0e: forces over the weight above less 1: floor %.1e, blocks %.1e, %.1e, %.1e\n", tolerance,
+                    error[0], error[1], error[2], error[3]);
         print("four blocks", rest, weight);
         for (double e : error)
             EXPECT_LE(std::abs(e), tolerance > 1e-6 ? 1e-5 : 1e-7); // momentum that oscillates, over the window
         EXPECT_LE(rest.fall, 1e-5);
         EXPECT_LE(rest.deepest, 5e-3 * tolerance);
-        if (tolerance < 1e-6) EXPECT_LE(rest.kinetic[1], 1.01 * rest.kinetic[0]);
-        else EXPECT_LE(rest.kinetic[1] / weight / radius, 1e-3 * tolerance);
+        if (tolerance < 1e-6)
+            EXPECT_LE(rest.kinetic[1], 1.01 * rest.kinetic[0]);
+        else
+            EXPECT_LE(rest.kinetic[1] / weight / radius, 1e-3 * tolerance);
     }
 }
 
@@ -306,9 +315,11 @@ TEST(Stack, OfThreeDiscsHasTheForcesOfStatics)
     world.planes = { { 1, 1, 0, 0 }, { 0, 1, -2.1 * radius, 0 }, { 0, -1, 2.1 * radius, 0 } };
     const double weight = world.grains[0].mass() * gravity;
     const Rest rest = settle(world, std::sqrt(radius / gravity));
-    const double floor = rest.plane[0] / (3 * weight) - 1, wall = (rest.plane[1] + rest.plane[2]) / (weight * rest.tangent) - 1;
+    const double floor = rest.plane[0] / (3 * weight) - 1,
+                 wall = (rest.plane[1] + rest.plane[2]) / (weight * rest.tangent) - 1;
     const double left = rest.pair[2] / (weight / 2) - 1, right = rest.pair[5] / (weight / 2) - 1;
-    std::printf("three discs, tan(phi) %.4f (%.4f rigid): forces over those of statics less 1: floor %.1e, walls %.1e, discs %.1e and %.1e\n",
+    std::printf("three discs, tan(phi) %.4f (%.4f rigid): forces over those of statics less 1: floor %.1e, walls %.1e, "
+                "discs %.1e and %.1e\n",
                 rest.tangent, 0.55 / std::sqrt(1 - 0.55 * 0.55), floor, wall, left, right);
     EXPECT_LE(std::abs(floor), 1e-3);
     EXPECT_LE(std::abs(wall), 0.01);

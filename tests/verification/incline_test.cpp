@@ -77,7 +77,8 @@ Ride ride(const Incline& c)
     result.friction_ratio = -impulse.x() / impulse.y();
     // gain of momentum, less what gravity and sliding friction give it, over the weight and the window
     const double duration = world.time - begin;
-    result.balance = (grain.motion.velocity.x() - velocity.x() + friction * impulse.y() / mass) / (c.gravity * duration) - std::sin(angle);
+    result.balance = (grain.motion.velocity.x() - velocity.x() + friction * impulse.y() / mass) / (c.gravity * duration)
+        - std::sin(angle);
     result.height /= count;
     result.inertia = grain.motion.second_moment.trace() / (mass * c.radius * c.radius);
     return result;
@@ -116,9 +117,10 @@ TEST(Incline, ABlockSticksBelowTheFrictionAngleAndSlidesAbove)
         Incline c = block(tangent);
         c.window = 10;
         const Ride r = ride(c);
-        std::printf("block, tan %.3f: moves by %+.1e R in 10 sqrt(R / g), acceleration %+.1e g, friction %.6f of the normal force\n", tangent,
-                    r.travel, r.acceleration, r.friction_ratio);
-        EXPECT_LE(std::abs(r.travel), 1e-4);        // elastic; under a friction too small by 2 % it would slide by 0.1 R
+        std::printf(
+            "block, tan %.3f: moves by %+.1e R in 10 sqrt(R / g), acceleration %+.1e g, friction %.6f of the normal force\n",
+            tangent, r.travel, r.acceleration, r.friction_ratio);
+        EXPECT_LE(std::abs(r.travel), 1e-4); // elastic; under a friction too small by 2 % it would slide by 0.1 R
         EXPECT_LE(std::abs(r.acceleration), 1e-4);
         EXPECT_NEAR(r.friction_ratio, tangent, 1e-4); // vibration over the window
     }
@@ -128,8 +130,8 @@ TEST(Incline, ABlockSticksBelowTheFrictionAngleAndSlidesAbove)
     EXPECT_LE(at.travel, 5e-3);
     for (double tangent : { 0.303, 0.315, 0.45, 0.6 }) {
         const Ride r = ride(block(tangent));
-        std::printf("block, tan %.3f: acceleration %.6f g, %.6f g expected; friction ratio less mu %+.1e, balance %+.1e\n", tangent,
-                    r.acceleration, sliding(tangent), r.friction_ratio - friction, r.balance);
+        std::printf("block, tan %.3f: acceleration %.6f g, %.6f g expected; friction ratio less mu %+.1e, balance %+.1e\n",
+                    tangent, r.acceleration, sliding(tangent), r.friction_ratio - friction, r.balance);
         EXPECT_NEAR(r.acceleration, sliding(tangent), 1e-4);
         EXPECT_NEAR(r.friction_ratio, friction, 1e-12);
         EXPECT_LE(std::abs(r.balance), 1e-12);
@@ -144,10 +146,11 @@ TEST(Incline, ADiscRollsBelowThreeTimesTheFrictionAndSlidesAbove)
     for (double tangent : { 0.2, 0.4, 0.8 }) {
         const Ride r = ride(disc(tangent));
         const double rigid = 2.0 / 3 * tangent / std::sqrt(1 + tangent * tangent);
-        std::printf("disc, tan %.1f: acceleration %.5f g, %.5f g rigid (%+.2f %%), over the spin's %.4f R; friction ratio %.4f, %.4f rigid; "
+        std::printf("disc, tan %.1f: acceleration %.5f g, %.5f g rigid (%+.2f %%), over the spin's %.4f R; friction ratio "
+                    "%.4f, %.4f rigid; "
                     "centre at %.4f R, inertia %.4f m R^2\n",
-                    tangent, r.acceleration, rigid, 100 * (r.acceleration / rigid - 1), -r.acceleration / r.spin_acceleration,
-                    r.friction_ratio, tangent / 3, r.height, r.inertia);
+                    tangent, r.acceleration, rigid, 100 * (r.acceleration / rigid - 1),
+                    -r.acceleration / r.spin_acceleration, r.friction_ratio, tangent / 3, r.height, r.inertia);
         EXPECT_NEAR(r.acceleration / rigid, 1, 0.02);
         EXPECT_NEAR(-r.acceleration / r.spin_acceleration, 1, 0.025) << "rolls";
         EXPECT_NEAR(r.friction_ratio, tangent / 3, 0.02 * tangent);
@@ -155,10 +158,12 @@ TEST(Incline, ADiscRollsBelowThreeTimesTheFrictionAndSlidesAbove)
     for (double tangent : { 1.0, 1.2 }) {
         const Ride r = ride(disc(tangent));
         const double rigid = 2 * friction / std::sqrt(1 + tangent * tangent);
-        std::printf("disc, tan %.1f: acceleration %.5f g, %.5f g expected (%+.2f %%); of the spin %.5f g / R, %.5f rigid (%+.2f %%); friction "
+        std::printf("disc, tan %.1f: acceleration %.5f g, %.5f g expected (%+.2f %%); of the spin %.5f g / R, %.5f rigid "
+                    "(%+.2f %%); friction "
                     "ratio less mu %+.1e, balance %+.1e\n",
-                    tangent, r.acceleration, sliding(tangent), 100 * (r.acceleration / sliding(tangent) - 1), -r.spin_acceleration, rigid,
-                    100 * (-r.spin_acceleration / rigid - 1), r.friction_ratio - friction, r.balance);
+                    tangent, r.acceleration, sliding(tangent), 100 * (r.acceleration / sliding(tangent) - 1),
+                    -r.spin_acceleration, rigid, 100 * (-r.spin_acceleration / rigid - 1), r.friction_ratio - friction,
+                    r.balance);
         EXPECT_NEAR(r.acceleration / sliding(tangent), 1, 2e-3); // vibration along the normal
         EXPECT_NEAR(-r.spin_acceleration / rigid, 1, 0.04);
         EXPECT_NEAR(r.friction_ratio, friction, 1e-12);
@@ -177,11 +182,12 @@ TEST(Incline, IsTheSameAtEverySize)
             c.radius = radius;
             c.gravity = gravity;
             const Ride other = ride(c);
-            for (double Ride::*value : { &Ride::acceleration, &Ride::spin_acceleration, &Ride::travel, &Ride::friction_ratio, &Ride::height })
+            for (double Ride::*value :
+                 { &Ride::acceleration, &Ride::spin_acceleration, &Ride::travel, &Ride::friction_ratio, &Ride::height })
                 worst = std::max(worst, std::abs(other.*value - metre.*value));
         }
-        std::printf("%s, tan %.3f: R = 0.1 m, 0.01 m, and 0.01 m with 100 g apart from R = 1 m by %.1e\n", c.stiffness > 100 ? "disc" : "block",
-                    c.tangent, worst);
+        std::printf("%s, tan %.3f: R = 0.1 m, 0.01 m, and 0.01 m with 100 g apart from R = 1 m by %.1e\n",
+                    c.stiffness > 100 ? "disc" : "block", c.tangent, worst);
         EXPECT_LE(worst, 1e-9);
     }
 }

@@ -103,8 +103,8 @@ public:
         const double R = X.norm(), sine = std::sin(rate_ * t), cosine = std::cos(rate_ * t);
         if (R == 0) return Vec<2>::Zero();
         const VortexProfile h = profile_(R);
-        const double along = std::pow(amplitude_, 2) * R
-            * (mu_ * std::pow(h.slope * sine, 2) - std::pow(rate_ * h.value * cosine, 2));
+        const double along
+            = std::pow(amplitude_, 2) * R * (mu_ * std::pow(h.slope * sine, 2) - std::pow(rate_ * h.value * cosine, 2));
         const double across = -amplitude_ * sine * (R * rate_ * rate_ * h.value + mu_ * (3 * h.slope + R * h.curvature));
         const Vec<2> e_r = turn(amplitude_ * sine * h.value) * X / R;
         return along * e_r + across * Vec<2>(-e_r.y(), e_r.x());

@@ -74,7 +74,8 @@ private:
         double smallest = 1;
         for (int k = 0; k <= 20; ++k)
             for (int p = 0; p < mesh_.point_count(); ++p)
-                smallest = std::min(smallest, solution_.gradient(place(p), case_.until * k / 20).jacobiSvd().singularValues()[1]);
+                smallest
+                    = std::min(smallest, solution_.gradient(place(p), case_.until * k / 20).jacobiSvd().singularValues()[1]);
         return smallest;
     }
 

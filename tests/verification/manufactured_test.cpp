@@ -28,7 +28,8 @@ Mat<2> gradient_of(const std::function<Vec<2>(const Vec<2>&)>& f, const Vec<2>& 
 {
     Mat<2> gradient;
     for (int i = 0; i < 2; ++i) {
-        const auto row = central_gradient([&](const std::vector<double>& at) { return f(Vec<2>(at[0], at[1]))[i]; }, { X[0], X[1] }, 1e-3);
+        const auto row = central_gradient([&](const std::vector<double>& at) { return f(Vec<2>(at[0], at[1]))[i]; },
+                                          { X[0], X[1] }, 1e-3);
         gradient.row(i) << row[0], row[1];
     }
     return gradient;
@@ -44,11 +45,13 @@ void expect_consistent(const Manufactured& motion, const Material& material, dou
     const Vec<2> acceleration = rate_of([&](double at) { return motion.velocity(X, at); }, t);
     Vec<2> divergence = Vec<2>::Zero();
     for (int j = 0; j < 2; ++j) {
-        const auto traction = [&](const Vec<2>& at) { return Vec<2>(piola_stress(material, motion.gradient(at, t)).col(j)); };
+        const auto traction
+            = [&](const Vec<2>& at) { return Vec<2>(piola_stress(material, motion.gradient(at, t)).col(j)); };
         divergence += gradient_of(traction, X).col(j);
     }
     const Vec<2> expected = acceleration - divergence / density, b = motion.body_force(X, t);
-    EXPECT_LE((b - expected).norm(), 1e-6 * (1 + acceleration.norm() + divergence.norm() / density)) << material.law << " " << X.transpose();
+    EXPECT_LE((b - expected).norm(), 1e-6 * (1 + acceleration.norm() + divergence.norm() / density))
+        << material.law << " " << X.transpose();
 }
 
 TEST(Manufactured, BodyForcesBalanceStressAndInertia)
@@ -86,7 +89,8 @@ TEST(Manufactured, VortexForceIsThePublishedOne)
         const double s = std::sin(rate * t), c = std::cos(rate * t), p = 4 * R - 3, q = 4 * R - 5, r = R - 1;
         const double radial = -R * A * A * rate * rate * c * c * std::pow(p * q, 4)
             + 4096 * mu / rho * R * A * A * s * s * r * r * p * p * q * q;
-        const double hoop = -A * s * (R * rate * rate * p * p * q * q + 64 * mu / rho * (96 * R * R * R - 240 * R * R + 188 * R - 45));
+        const double hoop
+            = -A * s * (R * rate * rate * p * p * q * q + 64 * mu / rho * (96 * R * R * R - 240 * R * R + 188 * R - 45));
         const double beta = Theta + A * s * (1 - 32 * r * r + 256 * r * r * r * r);
         const Vec<2> expected = turn(beta) * Vec<2>(radial, hoop);
         const Vec<2> b = vortex.body_force(R * Vec<2>(std::cos(Theta), std::sin(Theta)), t);
@@ -106,9 +110,9 @@ struct Convergence {
     void print(const std::string& what) const
     {
         std::printf("%s:", what.c_str());
-        for (const auto& [name, field] : { std::pair("displacement", &ManufacturedError::displacement),
-                                           std::pair("velocity", &ManufacturedError::velocity),
-                                           std::pair("stress / mu", &ManufacturedError::stress) }) {
+        for (const auto& [name, field] :
+             { std::pair("displacement", &ManufacturedError::displacement),
+               std::pair("velocity", &ManufacturedError::velocity), std::pair("stress / mu", &ManufacturedError::stress) }) {
             std::printf(" %s", name);
             for (const auto& e : error)
                 std::printf(" %.1e", e.*field);
@@ -208,7 +212,8 @@ std::shared_ptr<const Discretisation<2>> square_mesh(int points, double offset)
 // that is its measure: displacement x (lambda + mu) / mu.
 TEST(AxisAlignedDisplacement, IsOfOrder2WithTractions)
 {
-    for (const auto& [law, offset] : { std::pair<Law, double>(unit_neo_hookean, 0.0), { unit_neo_hookean, 0.3 }, { unit_mooney_rivlin, 0.3 } }) {
+    for (const auto& [law, offset] :
+         { std::pair<Law, double>(unit_neo_hookean, 0.0), { unit_neo_hookean, 0.3 }, { unit_mooney_rivlin, 0.3 } }) {
         double first = 0, worst = 0;
         for (double nu : poisson_ratios) {
             const Material material = law(nu);
@@ -228,7 +233,8 @@ TEST(AxisAlignedDisplacement, IsOfOrder2WithTractions)
             const std::string name = named(material, amplitude, nu) + ", offset " + shown(offset);
             all.print(name);
             EXPECT_GE(all.order(&ManufacturedError::displacement, 1), 1.7) << name;
-            EXPECT_GE(all.order(&ManufacturedError::velocity, 1), 1.6) << name; // 1.69 to 2.2; the 1.69 becomes 2.03 at 16636 points
+            EXPECT_GE(all.order(&ManufacturedError::velocity, 1), 1.6)
+                << name; // 1.69 to 2.2; the 1.69 becomes 2.03 at 16636 points
             EXPECT_GE(all.order(&ManufacturedError::stress, 1), 0.8) << name;
             const double error = all.error.back().displacement / load;
             if (nu == poisson_ratios[0]) first = error;
@@ -258,7 +264,9 @@ TEST(ManufacturedTime, IsOfOrder2AndVelocitiesStandHalfAStepBehind)
         c.until = until * (steps + 1) / steps;
         c.steps = steps + 1;
         const ManufacturedRun one_more(vortex, c);
-        const auto field = [](const std::vector<double>& f) { return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(f.data(), long(f.size()))); };
+        const auto field = [](const std::vector<double>& f) {
+            return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(f.data(), long(f.size())));
+        };
         u.push_back(field(to_end.grain(0).displacement));
         v.push_back(field(to_end.grain(0).velocity));
         mean.push_back((v.back() + field(one_more.grain(0).velocity)) / 2);
@@ -267,8 +275,8 @@ TEST(ManufacturedTime, IsOfOrder2AndVelocitiesStandHalfAStepBehind)
         return std::log2((f[k] - f[k + 1]).norm() / (f[k + 1] - f[k + 2]).norm());
     };
     for (size_t k = 0; k + 2 < counts.size(); ++k) {
-        std::printf("order in time from %d steps: displacement %.3f, velocity %.3f, mean of two velocities %.3f\n", counts[k],
-                    order(u, k), order(v, k), order(mean, k));
+        std::printf("order in time from %d steps: displacement %.3f, velocity %.3f, mean of two velocities %.3f\n",
+                    counts[k], order(u, k), order(v, k), order(mean, k));
         EXPECT_NEAR(order(u, k), 2, 0.1);
         EXPECT_NEAR(order(v, k), 1, 0.1);
         EXPECT_NEAR(order(mean, k), 2, 0.1);

@@ -8,7 +8,7 @@ namespace softgrain::testing_support {
 
 /// Means over a window of squeeze: force and squeeze belong together only when averaged over the same steps.
 struct Window {
-    double squeeze, force; ///< relative approach of the plates; mean force on both plates [N/m]
+    double squeeze, force;         ///< relative approach of the plates; mean force on both plates [N/m]
     double area_ratio, half_width; ///< at the window's last step; its squeeze follows
     double squeeze_at_end;
     double between; ///< mean force between two discs [N/m]
@@ -17,7 +17,7 @@ struct Window {
 struct Squeeze {
     std::vector<Window> windows;
     double min_J = 1, deepest = 0, residual = 0; ///< smallest J; deepest gap [m]; energy not accounted for, relative
-    double off_middle = 0; ///< how far from the middle two discs meet [m]
+    double off_middle = 0;                       ///< how far from the middle two discs meet [m]
     int steps = 0;
 };
 
@@ -74,7 +74,8 @@ inline Squeeze squeeze(const SqueezeCase& c)
             area += mesh->point_volume[p] * F[p].determinant() / M_PI;
         const double half_width = (copy.surface.max.x() - copy.surface.min.x()) / 2;
         result.windows.push_back({ place / count, force / count, area, half_width, squeeze_now(), between / count });
-        result.off_middle = std::max(result.off_middle, std::abs(world.grains.front().surface.max.y() + world.grains.back().surface.min.y()) / 2);
+        result.off_middle = std::max(
+            result.off_middle, std::abs(world.grains.front().surface.max.y() + world.grains.back().surface.min.y()) / 2);
         force = between = place = 0;
         count = 0;
         next += c.window;

@@ -40,7 +40,9 @@ struct Named {
 };
 const std::vector<Named> laws { { "NH", neo_hookean(), "A_plates_NH.csv" }, { "MR", mooney_rivlin(), "A_plates_MR.csv" } };
 /// Offsets of the grid and turns of the grain, arbitrary.
-const std::vector<std::array<double, 3>> placings { { 0, 0, 0 }, { 0.37, 0.81, 0.9 }, { 0.62, 0.14, 4.1 }, { 0.21, 0.55, 2.3 } };
+const std::vector<std::array<double, 3>> placings {
+    { 0, 0, 0 }, { 0.37, 0.81, 0.9 }, { 0.62, 0.14, 4.1 }, { 0.21, 0.55, 2.3 }
+};
 
 SqueezeCase with(const Material& material, int points, const std::array<double, 3>& placing)
 {
@@ -85,7 +87,9 @@ TEST(DiscBetweenPlates, ForceAgreesWithFiniteElementsAsPlacedByDefault)
         EXPECT_LE(std::abs(run.residual), 2e-3) << law.name;
         EXPECT_GE(run.deepest, -1e-3 * 1e-3) << law.name;
         for (size_t k = 1; k < run.windows.size(); ++k)
-            if (run.windows[k].squeeze > 0.05) { EXPECT_GT(run.windows[k].force, run.windows[k - 1].force) << law.name; }
+            if (run.windows[k].squeeze > 0.05) {
+                EXPECT_GT(run.windows[k].force, run.windows[k - 1].force) << law.name;
+            }
     }
 }
 
@@ -186,10 +190,11 @@ TEST(DiscOnDisc, IsADiscOnAPlate)
         double between = 0;
         for (const auto& window : run.windows)
             if (window.squeeze > 0.05) between += std::pow(window.between / window.force - 1, 2) / error.count;
-        std::printf("%s: force rms %.2f %% (worst %.2f %%) disc on disc, %.2f %% (%.2f %%) disc on plate; force between the discs %.2f %% "
+        std::printf("%s: force rms %.2f %% (worst %.2f %%) disc on disc, %.2f %% (%.2f %%) disc on plate; force between the "
+                    "discs %.2f %% "
                     "rms off the plates'; they meet within %.1e R of the middle; deepest %.1e R; energy %+.1e\n",
-                    law.name, 100 * error.rms, 100 * error.worst, 100 * on_plate.rms, 100 * on_plate.worst, 100 * std::sqrt(between),
-                    run.off_middle / 1e-3, -run.deepest / 1e-3, run.residual);
+                    law.name, 100 * error.rms, 100 * error.worst, 100 * on_plate.rms, 100 * on_plate.worst,
+                    100 * std::sqrt(between), run.off_middle / 1e-3, -run.deepest / 1e-3, run.residual);
         EXPECT_LE(error.rms, 0.03) << law.name;
         EXPECT_LE(std::sqrt(between), 0.01) << law.name; // waves between discs and plates within a window
         EXPECT_LE(run.off_middle, 0.01 * 1e-3) << law.name;
@@ -214,7 +219,8 @@ TEST(DiscOnDisc, StaysWholeAtEveryOrientation)
                 ADD_FAILURE() << law.name << ", angle " << c.angle << ": " << error.what();
             }
         }
-        std::printf("%s, two discs to 40 %%: %d of 8 orientations fail, smallest J of the others %.2f\n", law.name, failed, least);
+        std::printf("%s, two discs to 40 %%: %d of 8 orientations fail, smallest J of the others %.2f\n", law.name, failed,
+                    least);
         EXPECT_GE(least, 0.5) << law.name;
     }
 }

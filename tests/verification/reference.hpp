@@ -32,8 +32,10 @@ public:
             for (size_t k = 0; k < names.size(); ++k) {
                 std::istringstream entry(fields.at(k));
                 double value;
-                if (entry >> value) numbers_[names[k]].push_back(value);
-                else words_[names[k]].push_back(fields[k]);
+                if (entry >> value)
+                    numbers_[names[k]].push_back(value);
+                else
+                    words_[names[k]].push_back(fields[k]);
             }
         }
     }

@@ -16,7 +16,8 @@ struct Case {
     std::string file;
     Material material;
 };
-const std::vector<Case> cases { { "F_free_vibration_NH.csv", neo_hookean() }, { "F_free_vibration_NHsoft.csv", soft_neo_hookean() } };
+const std::vector<Case> cases { { "F_free_vibration_NH.csv", neo_hookean() },
+                                { "F_free_vibration_NHsoft.csv", soft_neo_hookean() } };
 
 /// The lowest frequencies, each as often as it occurs [Hz].
 std::vector<double> expected_frequencies(const Table& table, size_t count)
@@ -50,9 +51,10 @@ TEST(FreeVibration, FirstFrequenciesComeOutAt276PointsWithTheInertiaOfTheMateria
         const auto found = material_modes(disc(c, 276), 4);
         for (size_t k = 0; k < expected.size(); ++k) {
             const double f = found[k].frequency / std::sqrt(found[k].share);
-            std::printf("%s, 276 points: %9.1f Hz lumped (%+.2f %%), %9.1f Hz with the inertia of the material (%+.2f %%), expected %9.1f\n",
-                        c.file.c_str(), found[k].frequency, 100 * (found[k].frequency / expected[k] - 1), f, 100 * (f / expected[k] - 1),
-                        expected[k]);
+            std::printf("%s, 276 points: %9.1f Hz lumped (%+.2f %%), %9.1f Hz with the inertia of the material (%+.2f %%), "
+                        "expected %9.1f\n",
+                        c.file.c_str(), found[k].frequency, 100 * (found[k].frequency / expected[k] - 1), f,
+                        100 * (f / expected[k] - 1), expected[k]);
             EXPECT_NEAR(f / expected[k], 1, 0.01) << c.file;
         }
     }
@@ -94,8 +96,8 @@ TEST(FreeVibration, FrequenciesConvergeWithOrder2)
                 worst[k] = std::max(worst[k], std::abs(found[i].frequency / expected[i] - 1));
         }
         const double order = std::log(worst[0] / worst[1]) / std::log(width[0] / width[1]);
-        std::printf("%s: worst of six frequencies %.2f %% at 556 points, %.2f %% at 1200, order %.2f\n", c.file.c_str(), 100 * worst[0],
-                    100 * worst[1], order);
+        std::printf("%s: worst of six frequencies %.2f %% at 556 points, %.2f %% at 1200, order %.2f\n", c.file.c_str(),
+                    100 * worst[0], 100 * worst[1], order);
         EXPECT_NEAR(order, 2, 0.3);
         EXPECT_LE(worst[1], 0.025);
     }
@@ -127,7 +129,8 @@ TEST(FreeVibration, StepsOscillateAtTheOperatorsFrequency)
     }
     const double found = 20 / (zeros.back() - zeros.front());
     const double expected = std::asin(M_PI * mode.frequency * dt) / (M_PI * dt);
-    std::printf("first mode: %.2f Hz in the run, %.2f Hz expected, %.2f Hz of the operator\n", found, expected, mode.frequency);
+    std::printf("first mode: %.2f Hz in the run, %.2f Hz expected, %.2f Hz of the operator\n", found, expected,
+                mode.frequency);
     EXPECT_NEAR(found / expected, 1, 2e-5); // zeros by lines between some 30 steps a period
 }
 

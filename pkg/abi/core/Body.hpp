@@ -14,7 +14,7 @@ class Interaction;
 
 class Body : public Serializable {
 public:
-    using id_t        = int;
+    using id_t = int;
     using MapId2IntrT = std::map<id_t, shared_ptr<Interaction>>;
     enum { FLAG_BOUNDED = 1, FLAG_ASPHERICAL = 2, FLAG_SUBDOMAIN = 4, FLAG_FLUIDDOMAINBBOX = 8 };
 

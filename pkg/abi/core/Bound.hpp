@@ -9,11 +9,11 @@ namespace yade {
 class Bound : public Serializable, public Indexable {
 public:
     int lastUpdateIter = 0;
-    Vector3r refPos    = Vector3r(NaN, NaN, NaN); // of the body at the last update
-    Real sweepLength   = 0;
-    Vector3r color     = Vector3r(1, 1, 1);
-    Vector3r min       = Vector3r(NaN, NaN, NaN);
-    Vector3r max       = Vector3r(NaN, NaN, NaN);
+    Vector3r refPos = Vector3r(NaN, NaN, NaN); // of the body at the last update
+    Real sweepLength = 0;
+    Vector3r color = Vector3r(1, 1, 1);
+    Vector3r min = Vector3r(NaN, NaN, NaN);
+    Vector3r max = Vector3r(NaN, NaN, NaN);
 
     Bound() { }
     YADE_ABI_STOCK(Bound)

@@ -19,25 +19,19 @@
 
 namespace yade {
 
-class BoundFunctor : public Functor1D<Shape, void, boost::mpl::vector<const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*>> {
+class BoundFunctor
+    : public Functor1D<Shape, void,
+                       boost::mpl::vector<const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*>> {
 public:
     BoundFunctor() { }
     YADE_ABI_STOCK(BoundFunctor)
 };
 YADE_ABI_STOCK_END(BoundFunctor, 88)
 
-class IGeomFunctor : public Functor2D<
-                             Shape,
-                             Shape,
-                             bool,
-                             boost::mpl::vector<
-                                     const shared_ptr<Shape>&,
-                                     const shared_ptr<Shape>&,
-                                     const State&,
-                                     const State&,
-                                     const Vector3r&,
-                                     const bool&,
-                                     const shared_ptr<Interaction>&>> {
+class IGeomFunctor
+    : public Functor2D<Shape, Shape, bool,
+                       boost::mpl::vector<const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&,
+                                          const Vector3r&, const bool&, const shared_ptr<Interaction>&>> {
 public:
     IGeomFunctor() { }
     YADE_ABI_STOCK(IGeomFunctor)
@@ -46,14 +40,17 @@ public:
 YADE_ABI_STOCK_END(IGeomFunctor, 88)
 
 class IPhysFunctor
-        : public Functor2D<Material, Material, void, boost::mpl::vector<const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>> {
+    : public Functor2D<
+          Material, Material, void,
+          boost::mpl::vector<const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>> {
 public:
     IPhysFunctor() { }
     YADE_ABI_STOCK(IPhysFunctor)
 };
 YADE_ABI_STOCK_END(IPhysFunctor, 88)
 
-class LawFunctor : public Functor2D<IGeom, IPhys, bool, boost::mpl::vector<shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*>> {
+class LawFunctor
+    : public Functor2D<IGeom, IPhys, bool, boost::mpl::vector<shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*>> {
 public:
     LawFunctor() { }
     YADE_ABI_STOCK(LawFunctor)

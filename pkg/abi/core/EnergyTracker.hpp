@@ -18,7 +18,8 @@ public:
     YADE_ABI_STOCK(EnergyTracker)
     // id: -1 at the first call, then kept by the caller; reset: set to zero at every step.
     void findId(const string& name, int& id, bool reset = false, bool newIfNotFound = true);
-    void add(const Real& value, const string& name, int& id, bool reset = false); // safe in parallel regions once id is known
+    void add(const Real& value, const string& name, int& id,
+             bool reset = false); // safe in parallel regions once id is known
     void set(const Real& value, const string& name, int& id)
     {
         if (id < 0) findId(name, id, false);

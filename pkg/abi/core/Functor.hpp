@@ -22,20 +22,22 @@ public:
 };
 YADE_ABI_STOCK_END(Functor, 80)
 
-template <class Type1, class Result, class Arguments> class Functor1D : public Functor, public FunctorWrapper<Result, Arguments> {
+template <class Type1, class Result, class Arguments>
+class Functor1D : public Functor, public FunctorWrapper<Result, Arguments> {
 public:
     using DispatchType1 = Type1;
-    using ReturnType    = Result;
+    using ReturnType = Result;
     using ArgumentTypes = Arguments;
     virtual string get1DFunctorType1() const;
     vector<string> getFunctorTypes() const override;
 };
 
-template <class Type1, class Type2, class Result, class Arguments> class Functor2D : public Functor, public FunctorWrapper<Result, Arguments> {
+template <class Type1, class Type2, class Result, class Arguments>
+class Functor2D : public Functor, public FunctorWrapper<Result, Arguments> {
 public:
     using DispatchType1 = Type1;
     using DispatchType2 = Type2;
-    using ReturnType    = Result;
+    using ReturnType = Result;
     using ArgumentTypes = Arguments;
     virtual string get2DFunctorType1() const;
     virtual string get2DFunctorType2() const;
@@ -45,10 +47,10 @@ public:
 } // namespace yade
 
 // In a functor: the classes it takes.
-#define FUNCTOR1D(Type1)                                                                                                                   \
-public:                                                                                                                                    \
+#define FUNCTOR1D(Type1)                                                                                                    \
+public:                                                                                                                     \
     std::string get1DFunctorType1() const override { return #Type1; }
-#define FUNCTOR2D(Type1, Type2)                                                                                                            \
-public:                                                                                                                                    \
-    std::string get2DFunctorType1() const override { return #Type1; }                                                                      \
+#define FUNCTOR2D(Type1, Type2)                                                                                             \
+public:                                                                                                                     \
+    std::string get2DFunctorType1() const override { return #Type1; }                                                       \
     std::string get2DFunctorType2() const override { return #Type2; }

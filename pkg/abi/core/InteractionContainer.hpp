@@ -24,7 +24,7 @@ public:
     bool serializeSorted;
     long iterColliderLastRun;
 
-    using iterator       = ContainerT::iterator;
+    using iterator = ContainerT::iterator;
     using const_iterator = ContainerT::const_iterator;
 
     InteractionContainer() = delete;

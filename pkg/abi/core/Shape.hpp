@@ -14,7 +14,7 @@ public:
     shared_ptr<BoundFunctor> boundFunctor; // cached by BoundDispatcher
     shared_ptr<InternalForceFunctor> internalforcefunctor;
     Vector3r color = Vector3r(1, 1, 1);
-    bool wire      = false;
+    bool wire = false;
     bool highlight = false;
 
     Shape() { }

@@ -26,9 +26,9 @@ public:
     Real densityScaling;
 
     enum { DOF_NONE = 0, DOF_X = 1, DOF_Y = 2, DOF_Z = 4, DOF_RX = 8, DOF_RY = 16, DOF_RZ = 32 };
-    static constexpr unsigned DOF_XYZ    = DOF_X | DOF_Y | DOF_Z;
+    static constexpr unsigned DOF_XYZ = DOF_X | DOF_Y | DOF_Z;
     static constexpr unsigned DOF_RXRYRZ = DOF_RX | DOF_RY | DOF_RZ;
-    static constexpr unsigned DOF_ALL    = DOF_XYZ | DOF_RXRYRZ;
+    static constexpr unsigned DOF_ALL = DOF_XYZ | DOF_RXRYRZ;
     static unsigned axisDOF(int axis, bool rotational = false) { return 1u << (axis + (rotational ? 3 : 0)); }
 
     State();

@@ -10,7 +10,7 @@ namespace yade {
 // Sets Scene::dt, every timeStepUpdateInterval steps.
 class TimeStepper : public GlobalEngine {
 public:
-    bool active                         = true;
+    bool active = true;
     unsigned int timeStepUpdateInterval = 1;
 
     TimeStepper() { }

@@ -8,8 +8,8 @@ namespace yade {
 // How often something ran, and for how long [ns].
 struct TimingInfo {
     using delta = unsigned long long;
-    long nExec  = 0;
-    delta nsec  = 0;
+    long nExec = 0;
+    delta nsec = 0;
     static bool enabled;
 };
 static_assert(sizeof(TimingInfo) == 16, "YADE 2023.02a: size of TimingInfo");

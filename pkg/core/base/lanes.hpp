@@ -46,7 +46,8 @@ template <int Count, class T> SOFTGRAIN_INLINE void reciprocals(const T* x, T* r
 
 template <class T> SOFTGRAIN_INLINE T square_root(const T& x)
 {
-    if constexpr (lane_count<T> == 1) return std::sqrt(x);
+    if constexpr (lane_count<T> == 1)
+        return std::sqrt(x);
     else {
         T root;
         for (int l = 0; l < lane_count<T>; ++l)

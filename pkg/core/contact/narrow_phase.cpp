@@ -15,8 +15,7 @@ namespace {
     constexpr double safe_share = 0.8;
 
     /// Forces of the last step go to the same points; both lists are in the same order.
-    template <int Dim>
-    void carry_forces(const std::vector<ContactPoint<Dim>>& old, std::vector<ContactPoint<Dim>>& fresh)
+    template <int Dim> void carry_forces(const std::vector<ContactPoint<Dim>>& old, std::vector<ContactPoint<Dim>>& fresh)
     {
         auto before = old.begin();
         for (auto& contact : fresh) {
@@ -82,8 +81,7 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
             candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
             if (at.gap >= near) continue;
-            fresh.push_back({ candidate.point, on_second, at.segment,
-                              at.vertex, at.weight, at.normal, at.gap });
+            fresh.push_back({ candidate.point, on_second, at.segment, at.vertex, at.weight, at.normal, at.gap });
         }
     }
     carry_forces(points, fresh);
@@ -105,7 +103,8 @@ template <int Dim> double overlap(const Surface<Dim>& first, const Surface<Dim>&
 }
 
 template <int Dim>
-void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt)
+void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed,
+                                double dt)
 {
     const double near = reach(grain, plane_speed, dt);
     thread_local std::vector<ContactPoint<Dim>> fresh;

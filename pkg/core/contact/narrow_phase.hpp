@@ -13,14 +13,14 @@ namespace softgrain {
 
 /// One surface point against one face. Impulses act along +force on the point, against it on the face.
 template <int Dim> struct ContactPoint {
-    int point;        ///< surface point
-    bool on_second;   ///< the point belongs to the pair's second body, the face to the first
-    int face;         ///< segment (2D) of the other body
+    int point;                                     ///< surface point
+    bool on_second;                                ///< the point belongs to the pair's second body, the face to the first
+    int face;                                      ///< segment (2D) of the other body
     std::array<int, face_vertices<Dim>> vertex;    ///< that the face follows
     std::array<double, face_vertices<Dim>> weight; ///< of the vertices at the foot of the point, sum 1
-    Vec<Dim> normal;  ///< from the face to the point, unit
-    double gap;       ///< [m], negative: penetration
-    Vec<Dim> force = Vec<Dim>::Zero(); ///< [N] (N/m in 2D) of the last step: where the solver starts
+    Vec<Dim> normal;                               ///< from the face to the point, unit
+    double gap;                                    ///< [m], negative: penetration
+    Vec<Dim> force = Vec<Dim>::Zero();             ///< [N] (N/m in 2D) of the last step: where the solver starts
 };
 
 /// How far ahead contacts are looked for: [m], beyond what two bodies can close in one step.

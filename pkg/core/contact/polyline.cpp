@@ -12,7 +12,7 @@ namespace {
 
     /// The cubic over one segment.
     struct Segment {
-        std::array<int, 4> vertex; ///< the one before, the two ends, the one after
+        std::array<int, 4> vertex;              ///< the one before, the two ends, the one after
         std::array<double, 4> start {}, end {}; ///< weights of the vertices in the tangents at the ends
         Vec<2> x[4];
         Vec<2> a, b, c; ///< x(t) = x[1] + c t + b t^2 + a t^3
@@ -25,10 +25,12 @@ namespace {
             for (int k = 0; k < 4; ++k)
                 x[k] = polyline.x(vertex[k]);
             const bool sharp_start = polyline.corner[index], sharp_end = polyline.corner[next];
-            start = sharp_start ? (sharp_end ? std::array<double, 4> { 0, -1, 1, 0 } : std::array<double, 4> { 0, -1.5, 2, -0.5 })
-                                : std::array<double, 4> { -0.5, 0, 0.5, 0 };
-            end = sharp_end ? (sharp_start ? std::array<double, 4> { 0, -1, 1, 0 } : std::array<double, 4> { 0.5, -2, 1.5, 0 })
-                            : std::array<double, 4> { 0, -0.5, 0, 0.5 };
+            start = sharp_start
+                ? (sharp_end ? std::array<double, 4> { 0, -1, 1, 0 } : std::array<double, 4> { 0, -1.5, 2, -0.5 })
+                : std::array<double, 4> { -0.5, 0, 0.5, 0 };
+            end = sharp_end
+                ? (sharp_start ? std::array<double, 4> { 0, -1, 1, 0 } : std::array<double, 4> { 0.5, -2, 1.5, 0 })
+                : std::array<double, 4> { 0, -0.5, 0, 0.5 };
             Vec<2> last = Vec<2>::Zero();
             c = Vec<2>::Zero();
             for (int k = 0; k < 4; ++k) {

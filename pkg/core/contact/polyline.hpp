@@ -9,12 +9,12 @@ namespace softgrain {
 
 /// Where a point stands against the outline that a closed polyline samples.
 struct Projection {
-    int segment;     ///< from vertex `segment` to the next one
-    double t;        ///< place on the segment, 0 to 1
+    int segment;                  ///< from vertex `segment` to the next one
+    double t;                     ///< place on the segment, 0 to 1
     std::array<int, 4> vertex;    ///< that the foot follows, and
     std::array<double, 4> weight; ///< their weights, sum 1
-    Vec<2> normal;   ///< unit outward normal of the outline there
-    double gap;      ///< distance from the outline, negative inside [m]
+    Vec<2> normal;                ///< unit outward normal of the outline there
+    double gap;                   ///< distance from the outline, negative inside [m]
 };
 
 /// Projects x on the outline through the vertices: over each segment a cubic with the tangents (x_{i+1} - x_{i-1}) / 2

@@ -11,17 +11,17 @@ namespace softgrain {
 /// grid; a rigid polygon from its motion.
 template <int Dim> struct Surface {
     int count = 0;
-    std::vector<double> position;        ///< [point][Dim] [m], counter-clockwise in 2D
-    std::vector<double> velocity;        ///< [point][Dim] [m/s]; the contact solver works on it
-    std::vector<double> velocity_before; ///< [point][Dim] [m/s], at the start of the step
-    std::vector<double> impulse;         ///< [point][Dim] [N s], what contact gave in this step
-    std::vector<char> corner;            ///< [point], see BoundaryPoint
+    std::vector<double> position;                            ///< [point][Dim] [m], counter-clockwise in 2D
+    std::vector<double> velocity;                            ///< [point][Dim] [m/s]; the contact solver works on it
+    std::vector<double> velocity_before;                     ///< [point][Dim] [m/s], at the start of the step
+    std::vector<double> impulse;                             ///< [point][Dim] [N s], what contact gave in this step
+    std::vector<char> corner;                                ///< [point], see BoundaryPoint
     Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
-    double speed = 0;                    ///< largest speed of a point [m/s]
-    double travel = 0;                   ///< bound on the path of any point since the start [m]
-    double size = 0;                     ///< radius, or half the least width [m]
-    double mobility = 0;                 ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
-    const Discretisation<Dim>* mesh = nullptr; ///< its Delassus operator; none for rigid bodies
+    double speed = 0;                                        ///< largest speed of a point [m/s]
+    double travel = 0;                                       ///< bound on the path of any point since the start [m]
+    double size = 0;                                         ///< radius, or half the least width [m]
+    double mobility = 0;                                     ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
+    const Discretisation<Dim>* mesh = nullptr;               ///< its Delassus operator; none for rigid bodies
 
     void resize(int points)
     {

@@ -9,10 +9,7 @@ namespace softgrain {
 
 Box<2> DiscOutline::bounds() const { return { Vec<2>(-1, -1), Vec<2>(1, 1) }; }
 
-Moments<2> DiscOutline::moments() const
-{
-    return { M_PI, Vec<2>::Zero(), M_PI / 4 * Mat<2>::Identity() };
-}
+Moments<2> DiscOutline::moments() const { return { M_PI, Vec<2>::Zero(), M_PI / 4 * Mat<2>::Identity() }; }
 
 Moments<2> DiscOutline::moments(const Box<2>& box) const
 {

@@ -37,8 +37,8 @@ template <int Dim> struct Moments {
 /// A point of the boundary, in reference coordinates. Points follow each other counter-clockwise in 2D.
 template <int Dim> struct BoundaryPoint {
     Vec<Dim> position;
-    double weight;  ///< boundary length (area in 3D) that belongs to the point
-    bool corner;    ///< a sharp, convex corner: it can indent another grain between that grain's own points
+    double weight; ///< boundary length (area in 3D) that belongs to the point
+    bool corner;   ///< a sharp, convex corner: it can indent another grain between that grain's own points
 };
 
 template <int Dim> class Outline {

@@ -43,7 +43,8 @@ namespace {
     bool edges_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d)
     {
         for (int axis = 0; axis < 2; ++axis)
-            if (std::max(a[axis], b[axis]) < std::min(c[axis], d[axis]) || std::max(c[axis], d[axis]) < std::min(a[axis], b[axis]))
+            if (std::max(a[axis], b[axis]) < std::min(c[axis], d[axis])
+                || std::max(c[axis], d[axis]) < std::min(a[axis], b[axis]))
                 return false;
         const double abc = cross(b - a, c - a), abd = cross(b - a, d - a);
         const double cda = cross(d - c, a - c), cdb = cross(d - c, b - c);
@@ -57,10 +58,12 @@ PolygonOutline::PolygonOutline(Polygon vertices)
 {
     const size_t count = vertices_.size();
     if (count < 3)
-        throw UserError("soft grain outline: " + std::to_string(count) + " vertices do not enclose an area; give at least 3.");
+        throw UserError("soft grain outline: " + std::to_string(count)
+                        + " vertices do not enclose an area; give at least 3.");
     for (size_t i = 0; i < count; ++i)
         if (!vertices_[i].allFinite())
-            throw UserError("soft grain outline: vertex " + std::to_string(i) + " is not finite; give finite coordinates in metres.");
+            throw UserError("soft grain outline: vertex " + std::to_string(i)
+                            + " is not finite; give finite coordinates in metres.");
     const Vec<2> near = vertices_[0]; // moments about a vertex lose no digits far from the origin
     for (auto& vertex : vertices_)
         vertex -= near;
@@ -76,10 +79,9 @@ PolygonOutline::PolygonOutline(Polygon vertices)
     for (size_t i = 0; i < count; ++i)
         for (size_t j = i + 2; j < count; ++j)
             if ((j + 1) % count != i && edges_meet(vertices_[i], vertices_[i + 1], vertices_[j], vertices_[(j + 1) % count]))
-                throw UserError("soft grain outline: the edges from vertices " + std::to_string(i) + " and " + std::to_string(j)
-                                + " cross or touch; list the vertices in order around the grain.");
-    if (!with_area)
-        throw UserError("soft grain outline: the vertices enclose no area; list the corners of a polygon.");
+                throw UserError("soft grain outline: the edges from vertices " + std::to_string(i) + " and "
+                                + std::to_string(j) + " cross or touch; list the vertices in order around the grain.");
+    if (!with_area) throw UserError("soft grain outline: the vertices enclose no area; list the corners of a polygon.");
     if (whole.volume < 0) std::reverse(vertices_.begin(), vertices_.end());
     centroid_ = whole.centroid() + near;
     scale_ = std::sqrt(std::abs(whole.volume) / M_PI);

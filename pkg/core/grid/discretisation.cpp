@@ -215,8 +215,7 @@ template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
     }
 }
 
-template <int Dim>
-void Discretisation<Dim>::place_surface(const Outline<Dim>& outline, const Cells& cells, double spacing)
+template <int Dim> void Discretisation<Dim>::place_surface(const Outline<Dim>& outline, const Cells& cells, double spacing)
 {
     std::map<typename Cells::Index, int, IndexLess<Dim>> node_of;
     for (int i = 0; i < node_count(); ++i)
@@ -268,7 +267,7 @@ template <int Dim> void Discretisation<Dim>::bind_slaves(double threshold)
     node_mass.assign(masses.begin(), masses.begin() + master_count);
     slave_row.push_back(0);
     for (int s = master_count; s < node_count(); ++s) {
-        for (double reach = 2.3; ; reach += 1) {
+        for (double reach = 2.3;; reach += 1) {
             std::vector<int> near;
             for (int m = 0; m < master_count; ++m)
                 if ((node_position[m] - node_position[s]).norm() < reach * cell_width) near.push_back(m);
@@ -283,12 +282,11 @@ template <int Dim> void Discretisation<Dim>::bind_slaves(double threshold)
             const Eigen::FullPivLU<Eigen::MatrixXd> solver(normal);
             if (int(near.size()) <= Dim || !solver.isInvertible() || solver.rcond() < 1e-4) {
                 if (reach > 100)
-                    throw UserError("soft grain: the shape is too thin for its grid of cells "
-                                    + shown(cell_width) + " radii wide; give more points.");
+                    throw UserError("soft grain: the shape is too thin for its grid of cells " + shown(cell_width)
+                                    + " radii wide; give more points.");
                 continue;
             }
-            const Eigen::VectorXd weights
-                = W.asDiagonal() * A * solver.solve(Eigen::VectorXd::Unit(Dim + 1, 0));
+            const Eigen::VectorXd weights = W.asDiagonal() * A * solver.solve(Eigen::VectorXd::Unit(Dim + 1, 0));
             for (size_t k = 0; k < near.size(); ++k) {
                 if (std::abs(weights[k]) < 1e-14) continue;
                 links.push_back({ near[k], weights[k] });
@@ -307,8 +305,7 @@ template <int Dim> void Discretisation<Dim>::average_gradients()
         for (int p = block.first_point; p < block.first_point + block.point_count; ++p)
             for (int k = 0; k < stencil; ++k)
                 for (int d = 0; d < Dim; ++d)
-                    all[size_t(Dim) * block.node[k] + d]
-                        += point_volume[p] / moments.volume * gradient_at(block, p, k)[d];
+                    all[size_t(Dim) * block.node[k] + d] += point_volume[p] / moments.volume * gradient_at(block, p, k)[d];
     each_link([&](int slave, int master, double weight) {
         for (int d = 0; d < Dim; ++d)
             all[size_t(Dim) * master + d] += weight * all[size_t(Dim) * slave + d];
@@ -324,7 +321,8 @@ template <int Dim> void Discretisation<Dim>::build_delassus()
         for (int k = 0; k < stencil; ++k) {
             const int node = surface_stencil[p].node[k];
             const double weight = surface_stencil[p].weight[k];
-            if (node < master_count) folded[p][node] += weight;
+            if (node < master_count)
+                folded[p][node] += weight;
             else
                 each_link([&](int slave, int master, double share) {
                     if (slave == node) folded[p][master] += weight * share;

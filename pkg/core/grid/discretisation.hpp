@@ -15,10 +15,11 @@ namespace softgrain {
 
 /// How a grain is discretised. Defaults: the accuracy study of doc/theory.md.
 struct Resolution {
-    int points = 276;               ///< material points wished for; the nearest layout is taken
-    double surface_spacing = 1.0;   ///< largest distance of surface points [cell widths]
-    double node_threshold = 0;      ///< nodes with less mass follow their neighbours [mass of the heaviest node]; 0: threshold() chooses
-    double merge_threshold = 0.35;  ///< cells filled less join a neighbour [volume of a cell]
+    int points = 276;             ///< material points wished for; the nearest layout is taken
+    double surface_spacing = 1.0; ///< largest distance of surface points [cell widths]
+    double node_threshold
+        = 0; ///< nodes with less mass follow their neighbours [mass of the heaviest node]; 0: threshold() chooses
+    double merge_threshold = 0.35;   ///< cells filled less join a neighbour [volume of a cell]
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
 
     /// Light nodes soften narrow contacts, as they should be, but let the surface of a coarse grain wrinkle.
@@ -47,8 +48,8 @@ public:
         int master;
         double weight;
     };
-    std::vector<Link> links;     ///< of all slaves, one slave after the other
-    std::vector<int> slave_row;  ///< first link of each slave, and the number of links
+    std::vector<Link> links;    ///< of all slaves, one slave after the other
+    std::vector<int> slave_row; ///< first link of each slave, and the number of links
     int node_count() const { return int(node_position.size()); }
     /// Calls visit(slave, master, weight) for every link.
     template <class Visit> void each_link(const Visit& visit) const
@@ -104,7 +105,8 @@ public:
     /// Gradient of a stencil's shape function at a block's point [1 / radius].
     Eigen::Map<const Vec<Dim>> gradient_at(const Block& block, int point, int k) const
     {
-        return Eigen::Map<const Vec<Dim>>(&gradient[block.gradient + size_t(k * block.point_count + point - block.first_point) * Dim]);
+        return Eigen::Map<const Vec<Dim>>(
+            &gradient[block.gradient + size_t(k * block.point_count + point - block.first_point) * Dim]);
     }
     /// Number of material points with this many cells across the grain's longest side.
     static int points_with(const Outline<Dim>& outline, const Resolution& resolution, double cells_across);

@@ -18,7 +18,10 @@ struct MooneyRivlin {
     }
     template <class T> static SOFTGRAIN_INLINE T volumetric_modulus(const T* p) { return 2.0 * p[2]; }
     template <class T> static SOFTGRAIN_INLINE T shear_modulus(const T* p) { return 2.0 * (p[0] + p[1]); }
-    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T&) { return 2.0 * p[2] * (J - 1.0); }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T&)
+    {
+        return 2.0 * p[2] * (J - 1.0);
+    }
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
     {
@@ -32,7 +35,8 @@ struct MooneyRivlin {
             - 2.0 * (p[0] + 2.0 * p[1]) * logarithm(determinant(F));
     }
     template <int Dim, class T>
-    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& inverse_J, Tensor<Dim, T>& P)
+    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& inverse_J,
+                                        Tensor<Dim, T>& P)
     {
         const Tensor<Dim, T> C = right_cauchy_green(F);
         const T a = 2.0 * (p[0] + p[1] * first_invariant(F)), b = 2.0 * p[1];

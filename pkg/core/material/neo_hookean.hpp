@@ -28,7 +28,8 @@ struct NeoHookean {
         return p[1] * (0.5 * (first_invariant(F) - 3.0) - logarithm(determinant(F)));
     }
     template <int Dim, class T>
-    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& inverse_J, Tensor<Dim, T>& P)
+    static SOFTGRAIN_INLINE void stress(const T* p, const Tensor<Dim, T>& F, const Tensor<Dim, T>& cof, const T& inverse_J,
+                                        Tensor<Dim, T>& P)
     {
         const T k = p[1] * inverse_J;
         for (int i = 0; i < Dim; ++i)

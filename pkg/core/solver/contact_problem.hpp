@@ -11,19 +11,19 @@
 namespace softgrain {
 
 template <int Dim> struct Contact {
-    int body;            ///< that the point is on, place in ContactProblem::bodies
-    int other;           ///< that the face is on; -1: a rigid plane
+    int body;  ///< that the point is on, place in ContactProblem::bodies
+    int other; ///< that the face is on; -1: a rigid plane
     int point;
-    int face;            ///< segment (2D)
+    int face;                                      ///< segment (2D)
     std::array<int, face_vertices<Dim>> vertex;    ///< that the face follows
     std::array<double, face_vertices<Dim>> weight; ///< of the vertices, sum 1
-    Vec<Dim> normal;     ///< from the face to the point
-    double gap_speed;    ///< gap / dt [m/s]
-    Vec<Dim> drive;      ///< velocity of the rigid plane [m/s]
+    Vec<Dim> normal;                               ///< from the face to the point
+    double gap_speed;                              ///< gap / dt [m/s]
+    Vec<Dim> drive;                                ///< velocity of the rigid plane [m/s]
     double friction;
     const ContactLaw<Dim>* law;
-    Vec<Dim> impulse;    ///< on the point side: start value, then solution [N s]
-    double inertia = 0;  ///< 1 / (normal entry of the Delassus operator) [kg]; set by the solver
+    Vec<Dim> impulse;                 ///< on the point side: start value, then solution [N s]
+    double inertia = 0;               ///< 1 / (normal entry of the Delassus operator) [kg]; set by the solver
     Vec<Dim> free = Vec<Dim>::Zero(); ///< relative velocity with the gap, without any impulses [m/s]; set by the solver
 };
 
@@ -34,9 +34,8 @@ template <int Dim> struct ContactProblem {
     /// Velocity of a contact's point relative to its face, from one of the velocity fields of the surfaces.
     Vec<Dim> relative(const Contact<Dim>& contact, std::vector<double> Surface<Dim>::*field) const
     {
-        const auto value = [&](int body, int p) {
-            return Eigen::Map<const Vec<Dim>>(&(bodies[body]->*field)[size_t(Dim) * p]);
-        };
+        const auto value
+            = [&](int body, int p) { return Eigen::Map<const Vec<Dim>>(&(bodies[body]->*field)[size_t(Dim) * p]); };
         Vec<Dim> u = value(contact.body, contact.point);
         if (contact.other < 0) return u - contact.drive;
         for (int k = 0; k < face_vertices<Dim>; ++k)

@@ -40,12 +40,12 @@ namespace {
     template <int Dim> struct Local {
         int point, vertex[face_vertices<Dim>]; ///< places in the array of velocities; a rigid plane has no vertices
         double weight[face_vertices<Dim>];
-        Vec<Dim> normal, offset;     ///< offset: gap speed along the normal, less the drive of a rigid plane
+        Vec<Dim> normal, offset; ///< offset: gap speed along the normal, less the drive of a rigid plane
         Vec<Dim> impulse;
         double inertia, friction;
         const ContactLaw<Dim>* law;
         const SignoriniCoulomb<Dim>* coulomb; ///< the law, if it is this one
-        size_t response; ///< of its face's body to a unit impulse, in Group::responses
+        size_t response;                      ///< of its face's body to a unit impulse, in Group::responses
         Contact<Dim>* contact;
     };
 
@@ -139,7 +139,7 @@ private:
         std::vector<double> responses; ///< changes of velocities by unit impulses, at the columns of the face's rows [1/kg]
         std::vector<double> delassus;
         std::vector<Vec<Dim>> velocity, before; ///< relative velocities, and impulses before, of the block in hand
-        double change = 0, size = 0; ///< squared change and size of the impulses in the last sweep
+        double change = 0, size = 0;            ///< squared change and size of the impulses in the last sweep
         void clear()
         {
             locals.clear();
@@ -284,7 +284,8 @@ private:
             double change = 0, size = 0;
             for (size_t i = 0; i < block.count; ++i) {
                 Local<Dim>& local = locals[i];
-                const LocalContact<Dim> problem { local.normal, local.friction, local.impulse - local.inertia * velocity[i] };
+                const LocalContact<Dim> problem { local.normal, local.friction,
+                                                  local.impulse - local.inertia * velocity[i] };
                 // the common law is called by name, so that it is inlined
                 const Vec<Dim> impulse
                     = local.coulomb ? local.coulomb->SignoriniCoulomb<Dim>::reaction(problem) : local.law->reaction(problem);
@@ -324,8 +325,8 @@ private:
     ContactProblem<Dim>* problem_ = nullptr;
     std::vector<Body> bodies_;
     std::vector<double> velocity_;
-    std::vector<Group> groups_;           ///< phase after phase
-    std::array<int, phases + 1> phase_;   ///< first group of each phase
+    std::vector<Group> groups_;         ///< phase after phase
+    std::array<int, phases + 1> phase_; ///< first group of each phase
 };
 
 template <int Dim>

@@ -18,8 +18,8 @@ namespace {
         int worst = 0;
         for (int p = 1; p < int(F.size()); ++p)
             if (!(F[p].determinant() >= F[worst].determinant())) worst = p;
-        throw SimulationError(whose(grain.id) + ": material point " + std::to_string(worst) + " turned inside out (J = "
-                              + shown(F[worst].determinant())
+        throw SimulationError(whose(grain.id) + ": material point " + std::to_string(worst)
+                              + " turned inside out (J = " + shown(F[worst].determinant())
                               + "); likely causes: a time step over the stable limit, grains pressed beyond what their "
                                 "resolution can follow, or an impact near the wave speed.");
     }
@@ -124,7 +124,8 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
             for (int d = 0; d < Dim; ++d)
                 batch.gain[d * lanes + lane] = dt * (gravity[d] + grain.acceleration[d]) / grain.radius;
             grain.surface.velocity_before.swap(grain.surface.velocity); // filled below
-            if (grain.spin_acceleration != Mat<Dim>::Zero()) grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
+            if (grain.spin_acceleration != Mat<Dim>::Zero())
+                grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
         }
         motion_kernels<Dim>().kick[batch.wide()](batch.data(), dt, batch.gain.data());
         const double* values = batch.surface();
@@ -205,11 +206,13 @@ template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& proble
     for (const auto& contact : problem.contacts) {
         if (contact.impulse == Vec<Dim>::Zero()) continue;
         const Vec<Dim> u = (problem.relative(contact, &Surface<Dim>::velocity)
-                            + problem.relative(contact, &Surface<Dim>::velocity_before)) / 2;
+                            + problem.relative(contact, &Surface<Dim>::velocity_before))
+            / 2;
         const double normal = contact.impulse.dot(contact.normal) * u.dot(contact.normal);
         balance.contact_dissipation -= normal;
         if (contact.friction > 0) balance.friction -= contact.impulse.dot(u) - normal; // else but round-off
-        if (contact.other < 0) balance.external_work += contact.impulse.dot(contact.drive);
+        if (contact.other < 0)
+            balance.external_work += contact.impulse.dot(contact.drive);
         else if (Surface<Dim>& other = *problem.bodies[contact.other]; other.mobility == 0)
             for (int k = 0; k < face_vertices<Dim>; ++k)
                 balance.external_work += contact.weight[k] * contact.impulse.dot(other.v(contact.vertex[k]));

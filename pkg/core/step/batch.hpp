@@ -41,8 +41,8 @@ template <int Dim> struct KernelData {
 /// Sums over the masters of a grain, weighted by mass, per lane: where the entries of the array stand.
 template <int Dim> struct MotionSums {
     static constexpr int spins = Dim * (Dim - 1) / 2;
-    static constexpr int position = 0, velocity = Dim, spin = 2 * Dim, second = spin + spins,
-                         kinetic = second + Dim * Dim, gradient = kinetic + 1, count = gradient + Dim * Dim;
+    static constexpr int position = 0, velocity = Dim, spin = 2 * Dim, second = spin + spins, kinetic = second + Dim * Dim,
+                         gradient = kinetic + 1, count = gradient + Dim * Dim;
 };
 
 /// A kernel for batches of one lane and of eight.

@@ -134,7 +134,8 @@ template <int Dim> void Grain<Dim>::add_velocity(const Vec<Dim>& of_centre, cons
     const Vec<Dim> centre = (motion.position - origin) / radius;
     for (int i = 0; i < mesh->master_count; ++i) {
         const Eigen::Map<const Vec<Dim>> u(&displacement[size_t(Dim) * i]);
-        Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * i]) += of_centre / radius + gradient * (mesh->node_position[i] + u - centre);
+        Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * i])
+            += of_centre / radius + gradient * (mesh->node_position[i] + u - centre);
     }
     put();
     for (int p = 0; p < surface.count; ++p)
@@ -180,8 +181,8 @@ template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::at_points(const std::vector
     for (const auto& block : mesh->blocks)
         for (int p = block.first_point; p < block.first_point + block.point_count; ++p)
             for (int k = 0; k < stencil; ++k)
-                values[p] += mesh->shape[size_t(p) * stencil + k]
-                    * Eigen::Map<const Vec<Dim>>(&all[size_t(Dim) * block.node[k]]);
+                values[p]
+                    += mesh->shape[size_t(p) * stencil + k] * Eigen::Map<const Vec<Dim>>(&all[size_t(Dim) * block.node[k]]);
     return values;
 }
 

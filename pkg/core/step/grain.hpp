@@ -13,9 +13,9 @@ template <int Dim> struct Motion {
     static constexpr int spins = MotionSums<Dim>::spins;
     Vec<Dim> position = Vec<Dim>::Zero(), velocity = Vec<Dim>::Zero(); ///< of the centre of mass [m], [m/s]
     Eigen::Matrix<double, spins, 1> angular_momentum = Eigen::Matrix<double, spins, 1>::Zero(); ///< about it [kg m2/s]
-    Mat<Dim> second_moment = Mat<Dim>::Zero();  ///< of mass about it [kg m2]
+    Mat<Dim> second_moment = Mat<Dim>::Zero();                                                  ///< of mass about it [kg m2]
     Mat<Dim> mean_gradient = Mat<Dim>::Identity(); ///< mean deformation gradient F
-    double kinetic = 0; ///< [J]
+    double kinetic = 0;                            ///< [J]
 };
 
 /// A soft grain: what it is made of, and its state. While it belongs to an Assembly the node fields live there;
@@ -30,9 +30,9 @@ template <int Dim> struct Grain {
     std::vector<double> displacement, velocity;       ///< of the masters, [node][Dim] [radius], [radius/s]
     Surface<Dim> surface;
     Motion<Dim> motion;
-    Vec<Dim> acceleration = Vec<Dim>::Zero();      ///< by forces on the grain as a whole, besides gravity [m/s2]
-    Mat<Dim> spin_acceleration = Mat<Dim>::Zero(); ///< by torques on it, rate of a velocity gradient [1/s2]
-    double min_J = 1, min_stretch = 1, elastic = 0;   ///< elastic energy [J], as of the last evaluation
+    Vec<Dim> acceleration = Vec<Dim>::Zero();       ///< by forces on the grain as a whole, besides gravity [m/s2]
+    Mat<Dim> spin_acceleration = Mat<Dim>::Zero();  ///< by torques on it, rate of a velocity gradient [1/s2]
+    double min_J = 1, min_stretch = 1, elastic = 0; ///< elastic energy [J], as of the last evaluation
 
     double mass() const { return density * mesh->moments.volume * std::pow(radius, Dim); }
     double reference_volume() const { return mesh->moments.volume * std::pow(radius, Dim); }

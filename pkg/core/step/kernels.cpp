@@ -16,7 +16,8 @@ namespace {
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")
             && __builtin_cpu_supports("avx512bw"))
             return InstructionSet::avx512;
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? InstructionSet::avx2 : InstructionSet::plain;
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? InstructionSet::avx2
+                                                                               : InstructionSet::plain;
     }
 
     // The same arrays from a further lane on.
@@ -35,7 +36,8 @@ namespace {
     template <class Kernel, int Dim, class... Arguments> struct Versions {
         using Function = void (*)(const KernelData<Dim>&, Arguments...);
 
-        __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(const KernelData<Dim>& data, Arguments... arguments)
+        __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(const KernelData<Dim>& data,
+                                                                           Arguments... arguments)
         {
             Kernel::template run<Lanes<8>::Value, 8>(data, arguments...);
         }
@@ -60,9 +62,12 @@ namespace {
         static std::array<Function, 2> table()
         {
             switch (instruction_set()) {
-            case InstructionSet::avx512: return { one_avx2, eight_avx512 };
-            case InstructionSet::avx2: return { one_avx2, eight_avx2 };
-            default: return { one_plain, eight_plain };
+            case InstructionSet::avx512:
+                return { one_avx2, eight_avx512 };
+            case InstructionSet::avx2:
+                return { one_avx2, eight_avx2 };
+            default:
+                return { one_plain, eight_plain };
             }
         }
     };

@@ -67,7 +67,7 @@ SOFTGRAIN_INLINE void add_forces(const Nodes& node, const double* gradient, int 
 /// multiplications of the general form.
 struct FullCell {
     static constexpr double a = 0.28867513459481288, p = 1.0 / 6, q = a / 2; // a = 1 / sqrt(12) cell widths
-    double half, slope; ///< 1/2 and a over the cell width
+    double half, slope;                                                      ///< 1/2 and a over the cell width
 
     explicit SOFTGRAIN_INLINE FullCell(double width)
         : half(0.5 / width)
@@ -86,7 +86,8 @@ struct FullCell {
         at[0] = odd - slope * even;
         at[1] = odd + slope * even;
     }
-    template <class T, class U, class Nodes> SOFTGRAIN_INLINE void add_gradients(const Nodes& node, const U& u, Tensor<2, T>* F) const
+    template <class T, class U, class Nodes>
+    SOFTGRAIN_INLINE void add_gradients(const Nodes& node, const U& u, Tensor<2, T>* F) const
     {
 #pragma GCC unroll 2
         for (int c = 0; c < 2; ++c) {
@@ -108,7 +109,8 @@ struct FullCell {
             }
         }
     }
-    template <class T, class U, class Nodes> SOFTGRAIN_INLINE void add_forces(const Nodes& node, const Tensor<2, T>* Q, const U& f) const
+    template <class T, class U, class Nodes>
+    SOFTGRAIN_INLINE void add_forces(const Nodes& node, const Tensor<2, T>* Q, const U& f) const
     {
 #pragma GCC unroll 2
         for (int c = 0; c < 2; ++c) {
@@ -127,7 +129,8 @@ struct FullCell {
 #pragma GCC unroll 3
             for (int j = 0; j < 3; ++j) {
                 const T bend = slope * (along[j][1] - along[j][0]), sum = value[j][0] + value[j][1];
-                const T common = bend + p * sum, change = half * (along[j][0] + along[j][1]) + q * (value[j][1] - value[j][0]);
+                const T common = bend + p * sum,
+                        change = half * (along[j][0] + along[j][1]) + q * (value[j][1] - value[j][0]);
                 f[2 * node[3 * j] + c] += common - change;
                 f[2 * node[3 * j + 1] + c] += (1 - 2 * p) * sum - 2.0 * bend;
                 f[2 * node[3 * j + 2] + c] += common + change;
@@ -138,7 +141,8 @@ struct FullCell {
 
 /// Deformation gradients at the 2^Dim points of a region.
 template <int Dim, int L, class T>
-SOFTGRAIN_INLINE void deform(const KernelData<Dim>& data, const typename Discretisation<Dim>::Region& region, Tensor<Dim, T>* F)
+SOFTGRAIN_INLINE void deform(const KernelData<Dim>& data, const typename Discretisation<Dim>::Region& region,
+                             Tensor<Dim, T>* F)
 {
     constexpr int points = power(2, Dim);
     const auto u = field<T, L>(data.displacement);
@@ -161,15 +165,15 @@ SOFTGRAIN_INLINE void deform(const KernelData<Dim>& data, const typename Discret
 
 /// Q grad N of the points of a region on their nodes.
 template <int Dim, int L, class T>
-SOFTGRAIN_INLINE void load(const KernelData<Dim>& data, const typename Discretisation<Dim>::Region& region, const Tensor<Dim, T>* Q)
+SOFTGRAIN_INLINE void load(const KernelData<Dim>& data, const typename Discretisation<Dim>::Region& region,
+                           const Tensor<Dim, T>* Q)
 {
     constexpr int points = power(2, Dim);
     const auto f = field<T, L>(data.force);
     const auto* block = data.blocks + region.first_block;
     if constexpr (Dim == 2)
         if (region.full) return FullCell(data.cell_width).add_forces(block->node, Q, f);
-    if (region.block_count == 1)
-        return add_forces<Dim, points>(block->node, data.gradient + block->gradient, points, Q, f);
+    if (region.block_count == 1) return add_forces<Dim, points>(block->node, data.gradient + block->gradient, points, Q, f);
     for (int b = 0, p = 0; b < region.block_count; ++b, ++block)
         for (int k = 0; k < block->point_count; ++k, ++p)
             add_forces<Dim, 1>(block->node, data.gradient + block->gradient + k * Dim, block->point_count, Q + p, f);
@@ -287,7 +291,8 @@ template <int Dim, class Law> struct InternalForce {
 };
 
 template <int Dim, class Law> struct Energy {
-    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* energy, double* min_stretch)
+    template <class T, int L>
+    static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* energy, double* min_stretch)
     {
         constexpr int points = power(2, Dim);
         T p[Law::parameters.size()], sum {}, smallest = broadcast<T>(1e300);
@@ -307,8 +312,7 @@ template <int Dim, class Law> struct Energy {
             mean *= 1.0 / points;
             for (int q = 0; q < points; ++q)
                 spread += (J[q] - mean) * (J[q] - mean) * (1.0 / points);
-            sum += region.volume
-                * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Dim, Law>(region, p) * spread);
+            sum += region.volume * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Dim, Law>(region, p) * spread);
         }
         field<T, L>(energy)[0] = sum;
         field<T, L>(min_stretch)[0] = smallest;

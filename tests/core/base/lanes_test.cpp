@@ -89,7 +89,10 @@ TEST(LogarithmOfLanes, IsGoodTo2UnitsOverTheWholeRange)
 {
     Random random(1);
     for (const auto& [set, function] : on_all_sets<Logarithm>())
-        EXPECT_LE(worst_logarithm(function, [&] { return random.log_uniform(1e-300, 1e300); }, 400000), 2) << set;
+        EXPECT_LE(worst_logarithm(
+                      function, [&] { return random.log_uniform(1e-300, 1e300); }, 400000),
+                  2)
+            << set;
 }
 
 TEST(LogarithmOfLanes, IsGoodTo2UnitsNearOneAndWhereTheMantissaIsSplit)
@@ -98,7 +101,9 @@ TEST(LogarithmOfLanes, IsGoodTo2UnitsNearOneAndWhereTheMantissaIsSplit)
     for (const auto& [set, function] : on_all_sets<Logarithm>())
         for (double centre : { 1.0, std::sqrt(0.5), std::sqrt(2.0), 0.5, 2.0 })
             for (double width : { 0.3, 1e-3, 1e-7, 1e-14 })
-                EXPECT_LE(worst_logarithm(function, [&] { return centre * (1 + random.uniform(-width, width)); }, 40000), 2)
+                EXPECT_LE(worst_logarithm(
+                              function, [&] { return centre * (1 + random.uniform(-width, width)); }, 40000),
+                          2)
                     << set << " near " << centre << " within " << width;
 }
 

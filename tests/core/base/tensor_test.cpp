@@ -28,7 +28,8 @@ template <int Dim> Mat<Dim> matrix(const Tensor<Dim, double>& T)
     return A;
 }
 
-template <class T> class TensorIn : public ::testing::Test { };
+template <class T> class TensorIn : public ::testing::Test {
+};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(TensorIn, Dimensions);
 

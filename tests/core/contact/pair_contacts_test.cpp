@@ -61,11 +61,14 @@ int compare(const PairContacts<2>& pair, const Surface<2>& first, const Surface<
     auto contact = pair.points.begin();
     int count = 0;
     for (const auto& [key, all] : brute_force(first, second)) {
-        const bool there = contact != pair.points.end() && contact->on_second == key.on_second && contact->point == key.point;
+        const bool there
+            = contact != pair.points.end() && contact->on_second == key.on_second && contact->point == key.point;
         const bool must = std::all_of(all.begin(), all.end(), [&](const Projection& at) { return at.gap < near; });
         const bool may = std::any_of(all.begin(), all.end(), [&](const Projection& at) { return at.gap < near; });
         count += must;
-        if (must) { EXPECT_TRUE(there) << "point " << key.point << " with gap " << all[0].gap << " within reach " << near; }
+        if (must) {
+            EXPECT_TRUE(there) << "point " << key.point << " with gap " << all[0].gap << " within reach " << near;
+        }
         if (!there) continue;
         EXPECT_TRUE(may) << "point " << key.point << " with gap " << all[0].gap << " beyond reach " << near;
         const auto same = std::find_if(all.begin(), all.end(), [&](const Projection& at) {
@@ -149,7 +152,8 @@ TEST(PairContacts, ListsHoldWhenSpeedsJump) { tumble(surface_of(disc, 0.2), surf
 
 /// Two discs, the second to the right of the first, with a gap between their boundaries.
 struct Facing {
-    Surface<2> first = surface_of(polar(33, [](double) { return 1.0; })), second = surface_of(polar(44, [](double) { return 0.7; }));
+    Surface<2> first = surface_of(polar(33, [](double) { return 1.0; })),
+               second = surface_of(polar(44, [](double) { return 0.7; }));
     PairContacts<2> pair;
     explicit Facing(double gap) { move(second, Vec<2>(1.7 + gap, 0), 0, 1); }
     void rest() { first.speed = second.speed = first.travel = second.travel = 0; }
@@ -254,7 +258,8 @@ TEST(PairContacts, LetPointsOfTheLargerBodyEnterOnlySoFar)
         facing.pair.update(facing.first, facing.second, 1e-3);
         const double allowed = allowance(facing.first, 0, facing.second);
         EXPECT_NEAR(allowed, 0.7 * 2 * M_PI / 44 / 4, 1e-3);
-        const auto found = std::find_if(facing.pair.points.begin(), facing.pair.points.end(), [](const auto& c) { return !c.on_second && c.point == 0; });
+        const auto found = std::find_if(facing.pair.points.begin(), facing.pair.points.end(),
+                                        [](const auto& c) { return !c.on_second && c.point == 0; });
         ASSERT_EQ(found != facing.pair.points.end(), depth > allowed);
         if (depth < allowed) continue;
         EXPECT_NEAR(found->gap, allowed - depth, 1e-4);
@@ -266,7 +271,8 @@ TEST(PairContacts, LetPointsOfTheLargerBodyEnterOnlySoFar)
 TEST(PairContacts, ShowTheFacesOfRigidBodies)
 {
     for (double size : { 0.3, 3.0 }) {
-        Surface<2> plate = surface_of(PolygonOutline(rectangle_vertices(4, 1)), 10, size), ball = surface_of(polar(64, [](double) { return 1.0; }));
+        Surface<2> plate = surface_of(PolygonOutline(rectangle_vertices(4, 1)), 10, size),
+                   ball = surface_of(polar(64, [](double) { return 1.0; }));
         plate.mobility = 0;
         move(ball, Vec<2>(0, plate.max.y() + 0.999), 0, 1);
         ball.speed = ball.travel = 0;
@@ -298,7 +304,8 @@ TEST(PairContacts, SeeTheNearerFaceAtAnAcuteCorner)
             PairContacts<2> pair;
             pair.update(ball, surface, 1e-3);
             for (const auto& contact : pair.points)
-                EXPECT_GE(contact.gap, 0) << "disc 0.002 off the face to vertex " << other << ", " << place << " from the tip";
+                EXPECT_GE(contact.gap, 0) << "disc 0.002 off the face to vertex " << other << ", " << place
+                                          << " from the tip";
         }
     }
 }

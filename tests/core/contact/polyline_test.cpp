@@ -47,7 +47,8 @@ TEST(Projection, GapOfASampledCircleIsOfOrder4)
     }
     for (size_t k = 1; k < error.size(); ++k)
         EXPECT_NEAR(std::log2(error[k - 1] / error[k]), 4, 0.1);
-    std::printf("gap error of a circle of 16, 32, 64, 128 points: %.2e %.2e %.2e %.2e R\n", error[0], error[1], error[2], error[3]);
+    std::printf("gap error of a circle of 16, 32, 64, 128 points: %.2e %.2e %.2e %.2e R\n", error[0], error[1], error[2],
+                error[3]);
 }
 
 // At the vertices and half-way between them the cubic's tangent is that of the circle, by symmetry; between, it is off by

@@ -67,9 +67,12 @@ inline std::vector<Vec<2>> smoothed(const Surface<2>& surface, int pieces)
     for (int i = 0; i < n; ++i) {
         const Vec<2> chord = x(i + 1) - x(i);
         Vec<2> start = (x(i + 1) - x(i - 1)) / 2, end = (x(i + 2) - x(i)) / 2;
-        if (sharp(i) && sharp(i + 1)) start = end = chord;
-        else if (sharp(i)) start = 2 * chord - end;
-        else if (sharp(i + 1)) end = 2 * chord - start;
+        if (sharp(i) && sharp(i + 1))
+            start = end = chord;
+        else if (sharp(i))
+            start = 2 * chord - end;
+        else if (sharp(i + 1))
+            end = 2 * chord - start;
         for (int k = 0; k < pieces; ++k) {
             const double t = double(k) / pieces;
             curve.push_back(x(i) + t * t * (3 - 2 * t) * chord + t * (1 - t) * (1 - t) * start - t * t * (1 - t) * end);

@@ -75,16 +75,18 @@ TEST(DiscOutline, BoxInsideIsWhole)
     for (int trial = 0; trial < 100; ++trial) {
         const Vec<2> a = random.vector<2>(0.7), b = random.vector<2>(0.7);
         const Box<2> box { a.cwiseMin(b), a.cwiseMax(b) };
-        EXPECT_LE(difference(disc.moments(box),
-                             oracle_moments({ box.min, { box.max.x(), box.min.y() }, box.max, { box.min.x(), box.max.y() } }, box)),
+        EXPECT_LE(difference(
+                      disc.moments(box),
+                      oracle_moments({ box.min, { box.max.x(), box.min.y() }, box.max, { box.min.x(), box.max.y() } }, box)),
                   round_off);
     }
 }
 
 TEST(DiscOutline, BoxOutsideIsEmpty)
 {
-    for (const Box<2>& box : { Box<2> { Vec<2>(1, -1), Vec<2>(2, 1) }, Box<2> { Vec<2>(0.8, 0.8), Vec<2>(1, 1) },
-                               Box<2> { Vec<2>(-0.5, 1.1), Vec<2>(0.5, 2) }, Box<2> { Vec<2>(-1, -1), Vec<2>(-0.75, -0.75) } })
+    for (const Box<2>& box :
+         { Box<2> { Vec<2>(1, -1), Vec<2>(2, 1) }, Box<2> { Vec<2>(0.8, 0.8), Vec<2>(1, 1) },
+           Box<2> { Vec<2>(-0.5, 1.1), Vec<2>(0.5, 2) }, Box<2> { Vec<2>(-1, -1), Vec<2>(-0.75, -0.75) } })
         EXPECT_EQ(difference(disc.moments(box), {}), 0);
 }
 

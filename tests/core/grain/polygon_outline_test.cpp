@@ -34,7 +34,8 @@ TEST(PolygonOutline, KeepsTheScaleAndThePlaceOfTheGivenPolygon)
         EXPECT_NEAR(outline.scale(), std::sqrt(given.volume / M_PI), round_off) << name;
         EXPECT_LE((outline.centroid() - given.centroid()).norm(), round_off) << name;
         for (size_t i = 0; i < vertices.size(); ++i)
-            EXPECT_LE((outline.centroid() + outline.scale() * outline.vertices()[i] - vertices[i]).norm(), round_off) << name;
+            EXPECT_LE((outline.centroid() + outline.scale() * outline.vertices()[i] - vertices[i]).norm(), round_off)
+                << name;
     }
 }
 

@@ -65,7 +65,8 @@ TEST(Interpolation, ReproducesLinesThroughMastersAlone)
         const auto& mesh = *layout.mesh;
         const Eigen::MatrixXd E = extension(mesh), X = rows(mesh.node_position, mesh.master_count);
         EXPECT_LE(largest(E * X - rows(mesh.node_position, mesh.node_count())), round_off) << layout.name;
-        EXPECT_LE(largest(at_points(mesh) * E * X - rows(mesh.point_position, mesh.point_count())), round_off) << layout.name;
+        EXPECT_LE(largest(at_points(mesh) * E * X - rows(mesh.point_position, mesh.point_count())), round_off)
+            << layout.name;
         EXPECT_LE(largest(surface_interpolation(mesh) * X - surface_rows(mesh)), round_off) << layout.name;
         for (int d = 0; d < 2; ++d) {
             Eigen::MatrixXd identity = Eigen::MatrixXd::Zero(mesh.point_count(), 2);
@@ -82,7 +83,8 @@ TEST(Interpolation, ReproducesParabolasThroughAllNodes)
     Random random(3);
     for (const auto& layout : layouts(random, resolutions, 3)) {
         const auto& mesh = *layout.mesh;
-        const Eigen::ArrayXXd X = rows(mesh.node_position, mesh.node_count()), x = rows(mesh.point_position, mesh.point_count());
+        const Eigen::ArrayXXd X = rows(mesh.node_position, mesh.node_count()),
+                              x = rows(mesh.point_position, mesh.point_count());
         const double h = mesh.cell_width;
         const Eigen::MatrixXd N = at_points(mesh);
         for (int d = 0; d < 2; ++d) {
@@ -115,7 +117,8 @@ TEST(Interpolation, AtSurfaceAgreesWithTheDenseRows)
     Random random(5);
     for (const auto& layout : layouts(random, { 60 }, 2)) {
         const auto& mesh = *layout.mesh;
-        const Eigen::MatrixXd masters = Eigen::MatrixXd::NullaryExpr(mesh.master_count, 2, [&] { return random.uniform(-1, 1); });
+        const Eigen::MatrixXd masters
+            = Eigen::MatrixXd::NullaryExpr(mesh.master_count, 2, [&] { return random.uniform(-1, 1); });
         const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> field = extension(mesh) * masters;
         const Eigen::MatrixXd expected = surface_interpolation(mesh) * masters;
         for (int p = 0; p < mesh.surface_count(); ++p)

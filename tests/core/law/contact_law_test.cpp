@@ -9,7 +9,8 @@ using namespace softgrain::testing_support;
 
 namespace {
 
-template <class T> class LocalLaw : public ::testing::Test { };
+template <class T> class LocalLaw : public ::testing::Test {
+};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(LocalLaw, Dimensions);
 
@@ -65,7 +66,9 @@ TYPED_TEST(LocalLaw, StaysInTheConeAndDissipatesMost)
         for (int other = 0; other < 5; ++other) {
             Vec<Dim> s = problem.tangential(random.vector<Dim>(1));
             if (s.norm() > 1e-3) s *= most / s.norm() * random.uniform(0, 1);
-            if (s.norm() <= most) { ASSERT_LE(rt.dot(ut), s.dot(ut) + problem.round_off()); }
+            if (s.norm() <= most) {
+                ASSERT_LE(rt.dot(ut), s.dot(ut) + problem.round_off());
+            }
         }
         if (most == 0) continue;
         (ut.norm() <= problem.round_off() ? sticks : slides)++;

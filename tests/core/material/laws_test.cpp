@@ -93,7 +93,8 @@ TYPED_TEST(LawIn, StressIsTheSlopeOfTheEnergy)
 template <int Dim> Mat<Dim> tangent(const NeoHookean&, const std::vector<double>& p, const Mat<Dim>& F, const Mat<Dim>& dF)
 {
     const Mat<Dim> G = F.inverse().transpose();
-    return p[1] * dF + (p[1] - p[0] * std::log(F.determinant())) * G * dF.transpose() * G + p[0] * G.cwiseProduct(dF).sum() * G;
+    return p[1] * dF + (p[1] - p[0] * std::log(F.determinant())) * G * dF.transpose() * G
+        + p[0] * G.cwiseProduct(dF).sum() * G;
 }
 template <int Dim> Mat<Dim> tangent(const MooneyRivlin&, const std::vector<double>& p, const Mat<Dim>& F, const Mat<Dim>& dF)
 {
@@ -117,15 +118,17 @@ TYPED_TEST(LawIn, DifferencesOfTheStressAreASymmetricTangent)
             Mat<Dim> dP;
             for (int i = 0; i < Dim; ++i)
                 for (int j = 0; j < Dim; ++j)
-                    dP(i, j) = central_gradient([&](const std::vector<double>& s) { return this->stress(F + s[0] * dF)(i, j); },
-                                                { 0.0 }, 3e-4)[0];
+                    dP(i, j) = central_gradient(
+                        [&](const std::vector<double>& s) { return this->stress(F + s[0] * dF)(i, j); }, { 0.0 }, 3e-4)[0];
             return dP;
         };
         const Mat<Dim> dP = along(A), expected = tangent<Dim>(typename TypeParam::Law(), this->p, F, A);
         worst = std::max(worst, (dP - expected).norm() / (1 + expected.norm()));
-        asymmetry = std::max(asymmetry, std::abs(dP.cwiseProduct(B).sum() - along(B).cwiseProduct(A).sum()) / (1 + expected.norm()));
+        asymmetry = std::max(asymmetry,
+                             std::abs(dP.cwiseProduct(B).sum() - along(B).cwiseProduct(A).sum()) / (1 + expected.norm()));
     }
-    std::printf("%s in %d dimensions: tangent within %.1e, symmetric within %.1e\n", TypeParam::Law::name, Dim, worst, asymmetry);
+    std::printf("%s in %d dimensions: tangent within %.1e, symmetric within %.1e\n", TypeParam::Law::name, Dim, worst,
+                asymmetry);
     EXPECT_LE(worst, 1e-9); // h^4 times a sixth derivative of ln J, 8e-15 times up to 1e5, and eps / h
     EXPECT_LE(asymmetry, 1e-9);
 }
@@ -234,7 +237,9 @@ TYPED_TEST(LawIn, LanesAgreeWithOneLane)
 template <class Law> void expect_complaint(std::vector<double> p, const std::vector<std::string>& words)
 {
     const std::string complaint = Law::complaint(p.data());
-    if (words.empty()) { EXPECT_EQ(complaint, ""); }
+    if (words.empty()) {
+        EXPECT_EQ(complaint, "");
+    }
     for (const auto& word : words)
         EXPECT_NE(complaint.find(word), std::string::npos) << "'" << word << "' is missing in: " << complaint;
 }

@@ -74,7 +74,8 @@ TEST(NonlinearGaussSeidel, ResidualFollowsTheTolerance)
         const double mean = std::exp(sum / 60);
         EXPECT_LE(mean, 2 * tolerance);
         EXPECT_GE(mean, 0.003 * tolerance);
-        std::printf("tolerance %.0e: mean residual %.1e, %.1f sweeps (60 problems of 8 contacts)\n", tolerance, mean, sweeps / 60.0);
+        std::printf("tolerance %.0e: mean residual %.1e, %.1f sweeps (60 problems of 8 contacts)\n", tolerance, mean,
+                    sweeps / 60.0);
     }
 }
 
@@ -188,7 +189,8 @@ std::vector<Eigen::VectorXd> by_enumeration(const Eigen::MatrixXd& W, const Eige
         for (int i = 0; i < n; ++i) {
             const int state = code >> (2 * i) & 3; // open, stick, slide to either side
             for (int row = 2 * i; row < 2 * i + 2; ++row)
-                if (state == 0) A(row, row) = 1;
+                if (state == 0)
+                    A(row, row) = 1;
                 else {
                     A.row(row) = T.row(row);
                     b[row] = -free[row];

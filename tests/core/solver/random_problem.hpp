@@ -24,8 +24,8 @@ struct RandomProblem {
     RandomProblem(Random& random, int contacts, double friction)
     {
         for (int g = 0; g < 3; ++g) {
-            grains.push_back(make_grain(mesh(), neo_hookean(), {}, random.log_uniform(0.3e-3, 3e-3),
-                                        random.log_uniform(300, 3000)));
+            grains.push_back(
+                make_grain(mesh(), neo_hookean(), {}, random.log_uniform(0.3e-3, 3e-3), random.log_uniform(300, 3000)));
             problem.bodies.push_back(&grains.back().surface);
         }
         rigid.resize(40);
@@ -137,7 +137,7 @@ struct RandomProblem {
         for (size_t b = 0; b < problem.bodies.size(); ++b)
             q += shares(int(b))
                 * Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(free_velocity[b].data(),
-                                                                                             problem.bodies[b]->count, 2);
+                                                                                              problem.bodies[b]->count, 2);
         return q;
     }
 
@@ -154,7 +154,8 @@ struct RandomProblem {
     {
         std::vector<std::vector<double>> all = free_velocity;
         for (int g = 0; g < 3; ++g) {
-            Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> v(all[g].data(), grains[g].surface.count, 2);
+            Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> v(all[g].data(), grains[g].surface.count,
+                                                                                    2);
             v += grains[g].surface.mobility * surface_delassus() * shares(g).transpose() * impulses();
         }
         return all;

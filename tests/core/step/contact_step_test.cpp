@@ -76,8 +76,8 @@ TEST(Collision, WithFrictionKeepsMomentumAndAngularMomentumToTheGap)
     // the frictional impulse is at most mu times the normal one, that at most the momentum of both; contacts are closed
     // within 1e-4 of the radius
     EXPECT_LE(std::abs(collision.angular), world.friction * 2 * 1e-4);
-    std::printf("collision with friction: momentum %.1e, angular momentum %.1e, energy %.1e, dissipated %.1e\n", collision.momentum,
-                collision.angular, collision.energy, collision.dissipated);
+    std::printf("collision with friction: momentum %.1e, angular momentum %.1e, energy %.1e, dissipated %.1e\n",
+                collision.momentum, collision.angular, collision.energy, collision.dissipated);
 }
 
 // Kinetic + elastic + dissipated energy: each contact's work is exact over a step, the rest is of the step's order (see
@@ -94,8 +94,8 @@ TEST(Collision, BalancesItsEnergy)
         }
         EXPECT_LE(error[0], 1e-4); // single runs scatter, as impacts start at any part of a step
         EXPECT_LE(error[1], 1e-4 / 16);
-        std::printf("energy of a collision, friction %.1f: %.1e at half the critical step, %.1e at an eighth\n", friction, error[0],
-                    error[1]);
+        std::printf("energy of a collision, friction %.1f: %.1e at half the critical step, %.1e at an eighth\n", friction,
+                    error[0], error[1]);
     }
 }
 
@@ -240,9 +240,10 @@ TEST(Compaction, TwelveDiscsStayWhole)
         EXPECT_GT(grain.surface.min.x(), -1e-5);
         EXPECT_LT(grain.surface.max.x(), width + 1e-5);
     }
-    std::printf("12 discs to 0.95: %d steps, %.1f sweeps a step, J >= %.3f, deepest %.1e R, energy %+.1e of the work, residual %.1e\n",
-                world.steps, double(world.sweeps) / world.steps, min_J, -deepest / 1e-3, total / world.balance.external_work - 1,
-                world.problem.residual());
+    std::printf("12 discs to 0.95: %d steps, %.1f sweeps a step, J >= %.3f, deepest %.1e R, energy %+.1e of the work, "
+                "residual %.1e\n",
+                world.steps, double(world.sweeps) / world.steps, min_J, -deepest / 1e-3,
+                total / world.balance.external_work - 1, world.problem.residual());
 }
 
 } // namespace

@@ -12,10 +12,7 @@ using namespace softgrain::testing_support;
 namespace {
 
 /// 2 / omega_max of the undeformed grain from all its eigenvalues [s].
-double exact_step(const Grain<2>& grain)
-{
-    return 2 / (2 * M_PI * modes(grain).back().frequency);
-}
+double exact_step(const Grain<2>& grain) { return 2 / (2 * M_PI * modes(grain).back().frequency); }
 
 TEST(CriticalStep, IsTwoOverTheHighestFrequency)
 {
@@ -89,7 +86,8 @@ TEST(CriticalStep, IsSafeForACompressedGrain)
             grain.elastic_energy();
             const double estimate = critical_step(grain, unit_critical_step(make_grain(disc_mesh(60), material)));
             const double exact = exact_step(grain);
-            std::printf("%s, stretches %.2f and %.2f: estimate / exact = %.2f\n", material.law, A(0, 0), A(1, 1), estimate / exact);
+            std::printf("%s, stretches %.2f and %.2f: estimate / exact = %.2f\n", material.law, A(0, 0), A(1, 1),
+                        estimate / exact);
             EXPECT_LE(0.6 * estimate, exact) << material.law << " " << stretch;
         }
 }

@@ -37,8 +37,9 @@ TEST(FreeFlight, KeepsMomentumAndAngularMomentum)
             const double round_off = 4 * std::sqrt(double(steps)) * 0x1p-53 * 100; // random walk of 100 roundings a step
             EXPECT_LE((after.momentum - before.momentum).norm(), round_off * before.momentum.norm()) << material.law;
             EXPECT_NEAR(after.angular / before.angular, 1, round_off) << material.law;
-            std::printf("%s, %d grains, %d steps: momentum %.1e, angular momentum %.1e (relative)\n", material.law, count, steps,
-                        (after.momentum - before.momentum).norm() / before.momentum.norm(), after.angular / before.angular - 1);
+            std::printf("%s, %d grains, %d steps: momentum %.1e, angular momentum %.1e (relative)\n", material.law, count,
+                        steps, (after.momentum - before.momentum).norm() / before.momentum.norm(),
+                        after.angular / before.angular - 1);
         }
 }
 

@@ -38,7 +38,8 @@ TEST(Grain, UniformDeformationIsExact)
         for (int p = 0; p < layout.mesh->point_count(); ++p)
             ASSERT_LE((x[p] - centre - 1e-3 * A * layout.mesh->point_position[p]).norm(), 1e-15) << layout.name;
         for (int p = 0; p < grain.surface.count; ++p)
-            ASSERT_LE((grain.surface.x(p) - centre - 1e-3 * A * layout.mesh->surface[p].position).norm(), 1e-15) << layout.name;
+            ASSERT_LE((grain.surface.x(p) - centre - 1e-3 * A * layout.mesh->surface[p].position).norm(), 1e-15)
+                << layout.name;
         EXPECT_LE((grain.motion.mean_gradient - A).norm(), 1e-12) << layout.name;
         EXPECT_LE((grain.motion.position - centre).norm(), 1e-15) << layout.name;
     }
@@ -80,7 +81,8 @@ TEST(Grain, IsPutWhereItIsToldWithTheVelocityItIsTold)
         }
         const auto v = grain.point_velocities(), x = grain.point_positions();
         for (size_t p = 0; p < v.size(); ++p)
-            EXPECT_LE((v[p] - start.velocity - start.velocity_gradient * (x[p] - start.centre)).norm(), 1e-11) << layout.name;
+            EXPECT_LE((v[p] - start.velocity - start.velocity_gradient * (x[p] - start.centre)).norm(), 1e-11)
+                << layout.name;
         EXPECT_LE((grain.motion.position - start.centre).norm(), 1e-15);
         EXPECT_LE((grain.motion.velocity - start.velocity).norm(), 1e-11);
         EXPECT_NEAR(grain.mass(), 700 * M_PI * 4e-6, 1e-12);
@@ -91,7 +93,8 @@ TEST(Grain, IsPutWhereItIsToldWithTheVelocityItIsTold)
         const Mat<2> S = grain.motion.second_moment, G = start.velocity_gradient;
         const Mat<2> SG = S * G.transpose();
         EXPECT_NEAR(grain.motion.angular_momentum[0], SG(0, 1) - SG(1, 0), 1e-12 * S.norm() * G.norm());
-        EXPECT_NEAR(grain.motion.kinetic, 0.5 * grain.mass() * start.velocity.squaredNorm() + 0.5 * (G * S * G.transpose()).trace(),
+        EXPECT_NEAR(grain.motion.kinetic,
+                    0.5 * grain.mass() * start.velocity.squaredNorm() + 0.5 * (G * S * G.transpose()).trace(),
                     1e-12 * grain.motion.kinetic);
     }
 }

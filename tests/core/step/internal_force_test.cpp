@@ -52,7 +52,8 @@ void expect_forces_are_slopes(const Material& material, int count)
         for (int trial = 0; trial < 12; ++trial) {
             const auto& grain = grains[which];
             std::vector<double> direction(grain.displacement.size(), 0);
-            if (trial < 8) direction[random.integer(0, int(direction.size()) - 1)] = 1;
+            if (trial < 8)
+                direction[random.integer(0, int(direction.size()) - 1)] = 1;
             else
                 for (double& d : direction)
                     d = random.uniform(-1, 1);
@@ -168,7 +169,8 @@ TEST(InternalForce, HasTheStiffnessOfHookesLawAtRest)
                     for (int k = 0; k < mesh.stencil; ++k)
                         for (int i = 0; i < mesh.master_count; ++i)
                             for (int c = 0; c < 2; ++c)
-                                B.block<2, 1>(2 * c, 2 * i + c) += E(block.node[size_t(k)], i) * mesh.gradient_at(block, p, k);
+                                B.block<2, 1>(2 * c, 2 * i + c)
+                                    += E(block.node[size_t(k)], i) * mesh.gradient_at(block, p, k);
                     gradient.push_back(B);
                     mean += (B.row(0) + B.row(3)) / 4;
                 }
@@ -178,7 +180,9 @@ TEST(InternalForce, HasTheStiffnessOfHookesLawAtRest)
             for (const auto& B : gradient) {
                 const Eigen::RowVectorXd trace = B.row(0) + B.row(3), shear = B.row(1) + B.row(2), off = trace - mean;
                 K += V / 4 * (k * off.transpose() * off + (lambda - volumetric) * trace.transpose() * trace);
-                K += V / 4 * mu * (2 * B.row(0).transpose() * B.row(0) + 2 * B.row(3).transpose() * B.row(3) + shear.transpose() * shear);
+                K += V / 4 * mu
+                    * (2 * B.row(0).transpose() * B.row(0) + 2 * B.row(3).transpose() * B.row(3)
+                       + shear.transpose() * shear);
             }
         }
         const Eigen::MatrixXd found = stiffness(grain);

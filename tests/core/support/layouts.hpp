@@ -17,8 +17,8 @@ struct Layout {
 
 inline Layout layout_of(const NamedShape& shape, const Resolution& resolution)
 {
-    return { shape.name + ", " + std::to_string(resolution.points) + " points, offset " + std::to_string(resolution.offset[0])
-                 + " " + std::to_string(resolution.offset[1]),
+    return { shape.name + ", " + std::to_string(resolution.points) + " points, offset "
+                 + std::to_string(resolution.offset[0]) + " " + std::to_string(resolution.offset[1]),
              shape.outline, resolution, std::make_shared<Discretisation<2>>(*shape.outline, resolution) };
 }
 

@@ -30,7 +30,7 @@ public:
 
     // of the last step
     ContactProblem<2> problem;
-    double dt = 0, deepest = 0; ///< [s]; smallest gap [m]
+    double dt = 0, deepest = 0;      ///< [s]; smallest gap [m]
     std::vector<Vec<2>> plane_force; ///< on the planes [N/m]
     // since the start
     EnergyBalance balance;
@@ -101,8 +101,8 @@ public:
 
 private:
     std::optional<Assembly<2>> assembly_;
-    std::vector<PairContacts<2>> pairs_;        ///< of i < j
-    std::vector<PlaneContacts<2>> plane_pairs_; ///< [plane][grain]
+    std::vector<PairContacts<2>> pairs_;                   ///< of i < j
+    std::vector<PlaneContacts<2>> plane_pairs_;            ///< [plane][grain]
     std::vector<std::pair<ContactPoint<2>*, int>> owners_; ///< of the contacts; number of the plane or -1
 
     void start()
@@ -131,8 +131,8 @@ private:
     {
         static const SignoriniCoulomb<2> law;
         for (auto& p : points) {
-            problem.contacts.push_back({ p.on_second ? second : first, p.on_second ? first : second, p.point, p.face, p.vertex,
-                                         p.weight, p.normal, p.gap / dt, drive, friction, &law, p.force * dt });
+            problem.contacts.push_back({ p.on_second ? second : first, p.on_second ? first : second, p.point, p.face,
+                                         p.vertex, p.weight, p.normal, p.gap / dt, drive, friction, &law, p.force * dt });
             deepest = std::min(deepest, p.gap);
             owners_.push_back({ &p, plane });
         }
@@ -152,7 +152,8 @@ private:
                 add(pairs_[pair++].points, i, j, Vec<2>::Zero(), -1);
         for (size_t w = 0; w < planes.size(); ++w)
             for (int i = 0; i < count; ++i)
-                add(plane_pairs_[w * grains.size() + i].points, i, -1, planes[w].speed * Vec<2>::Unit(planes[w].axis), int(w));
+                add(plane_pairs_[w * grains.size() + i].points, i, -1, planes[w].speed * Vec<2>::Unit(planes[w].axis),
+                    int(w));
     }
 
     void scatter()

@@ -17,18 +17,18 @@ public:
     Logger createNamedLogger(std::string name);
 };
 
-#define DECLARE_LOGGER                                                                                                                     \
-public:                                                                                                                                    \
+#define DECLARE_LOGGER                                                                                                      \
+public:                                                                                                                     \
     static Logging::Logger logger
 #define CREATE_LOGGER(Class) Logging::Logger Class::logger = Logging::instance().createNamedLogger(#Class)
-#define CREATE_CPP_LOCAL_LOGGER(name)                                                                                                      \
-    namespace {                                                                                                                            \
-        Logging::Logger logger = Logging::instance().createNamedLogger(name);                                                              \
+#define CREATE_CPP_LOCAL_LOGGER(name)                                                                                       \
+    namespace {                                                                                                             \
+        Logging::Logger logger = Logging::instance().createNamedLogger(name);                                               \
     }
 
-#define YADE_ABI_LOG(level, msg)                                                                                                           \
-    {                                                                                                                                      \
-        BOOST_LOG_SEV(logger, Logging::level) << ":" << __LINE__ << " " << __func__ << ": " << msg;                                        \
+#define YADE_ABI_LOG(level, msg)                                                                                            \
+    {                                                                                                                       \
+        BOOST_LOG_SEV(logger, Logging::level) << ":" << __LINE__ << " " << __func__ << ": " << msg;                         \
     }
 #define LOG_FATAL(msg) YADE_ABI_LOG(eFATAL, msg)
 #define LOG_ERROR(msg) YADE_ABI_LOG(eERROR, msg)

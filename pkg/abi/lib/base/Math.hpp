@@ -41,7 +41,7 @@ using std::string;
 using std::swap;
 using std::vector;
 
-using Real   = double;
+using Real = double;
 using mask_t = int; // bits of Body::groupMask
 
 template <typename Scalar> using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
@@ -49,17 +49,17 @@ template <typename Scalar> using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <typename Scalar> using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
 template <typename Scalar> using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
-using Vector2i    = Vector2<int>;
-using Vector2r    = Vector2<Real>;
-using Vector3i    = Vector3<int>;
-using Vector3r    = Vector3<Real>;
-using Vector6i    = Vector6<int>;
-using Vector6r    = Vector6<Real>;
-using VectorXr    = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-using Matrix3r    = Matrix3<Real>;
-using MatrixXr    = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using Vector2i = Vector2<int>;
+using Vector2r = Vector2<Real>;
+using Vector3i = Vector3<int>;
+using Vector3r = Vector3<Real>;
+using Vector6i = Vector6<int>;
+using Vector6r = Vector6<Real>;
+using VectorXr = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+using Matrix3r = Matrix3<Real>;
+using MatrixXr = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Quaternionr = Eigen::Quaternion<Real>;
-using AngleAxisr  = Eigen::AngleAxis<Real>;
+using AngleAxisr = Eigen::AngleAxis<Real>;
 
 // Rigid placement: position and orientation.
 template <class Scalar> class Se3 {
@@ -68,7 +68,11 @@ public:
     Eigen::Quaternion<Scalar> orientation;
 
     Se3() { }
-    Se3(Vector3<Scalar> where, Eigen::Quaternion<Scalar> turned) : position(where), orientation(turned) { }
+    Se3(Vector3<Scalar> where, Eigen::Quaternion<Scalar> turned)
+        : position(where)
+        , orientation(turned)
+    {
+    }
 };
 using Se3r = Se3<Real>;
 

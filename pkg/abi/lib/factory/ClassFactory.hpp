@@ -29,7 +29,7 @@ class Factorable;
 
 class ClassFactory : public Singleton<ClassFactory> {
     using CreateShared = shared_ptr<Factorable> (*)();
-    using CreatePure   = Factorable* (*)();
+    using CreatePure = Factorable* (*)();
     using CreateCustom = void* (*)();
 
     struct Creators {
@@ -45,7 +45,7 @@ class ClassFactory : public Singleton<ClassFactory> {
     LibraryManager dlm;
     std::map<string, Creators> map;
 
-    ClassFactory()                    = delete;
+    ClassFactory() = delete;
     ClassFactory(const ClassFactory&) = delete;
     virtual ~ClassFactory();
 
@@ -64,24 +64,24 @@ static_assert(sizeof(ClassFactory) == 168, "YADE 2023.02a: size of ClassFactory"
 } // namespace yade
 
 // After a class: makes it known to the factory by its name.
-#define REGISTER_FACTORABLE(K)                                                                                                             \
-    inline shared_ptr<Factorable> CreateShared##K() { return shared_ptr<K>(new K); }                                                       \
-    inline Factorable* Create##K() { return new K; }                                                                                       \
-    inline void* CreatePureCustom##K() { return new K; }                                                                                   \
-    [[maybe_unused]] const bool registered##K                                                                                              \
-            = ClassFactory::instance().registerFactorable(#K, Create##K, CreateShared##K, CreatePureCustom##K);
+#define REGISTER_FACTORABLE(K)                                                                                              \
+    inline shared_ptr<Factorable> CreateShared##K() { return shared_ptr<K>(new K); }                                        \
+    inline Factorable* Create##K() { return new K; }                                                                        \
+    inline void* CreatePureCustom##K() { return new K; }                                                                    \
+    [[maybe_unused]] const bool registered##K                                                                               \
+        = ClassFactory::instance().registerFactorable(#K, Create##K, CreateShared##K, CreatePureCustom##K);
 
 // In a source file, inside namespace yade: YADE_PLUGIN((A)(B)) lists the classes that this file brings to Python and to the archives.
-#define YADE_PLUGIN(classes)                                                                                                               \
-    namespace {                                                                                                                            \
-        __attribute__((constructor)) void BOOST_PP_CAT(announcePlugin_, BOOST_PP_SEQ_HEAD(classes))()                                      \
-        {                                                                                                                                  \
-            const char* names[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_ABI_PLUGIN_NAME, ~, classes) nullptr };                           \
-            ClassFactory::instance().registerPluginClasses(names);                                                                         \
-        }                                                                                                                                  \
-    }                                                                                                                                      \
-    }                                                                                                                                      \
-    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_PLUGIN_EXPORT, ~, classes)                                                                              \
+#define YADE_PLUGIN(classes)                                                                                                \
+    namespace {                                                                                                             \
+        __attribute__((constructor)) void BOOST_PP_CAT(announcePlugin_, BOOST_PP_SEQ_HEAD(classes))()                       \
+        {                                                                                                                   \
+            const char* names[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_ABI_PLUGIN_NAME, ~, classes) nullptr };            \
+            ClassFactory::instance().registerPluginClasses(names);                                                          \
+        }                                                                                                                   \
+    }                                                                                                                       \
+    }                                                                                                                       \
+    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_PLUGIN_EXPORT, ~, classes)                                                               \
     namespace yade {
 #define YADE_ABI_PLUGIN_NAME(r, _, K) BOOST_PP_STRINGIZE(K),
 #define YADE_ABI_PLUGIN_EXPORT(r, _, K) BOOST_CLASS_EXPORT_IMPLEMENT(yade::K)

@@ -20,8 +20,8 @@ static_assert(sizeof(Factorable) == 24, "YADE 2023.02a: size of Factorable");
 
 } // namespace yade
 
-#define REGISTER_CLASS_AND_BASE(K, Base)                                                                                                   \
-public:                                                                                                                                    \
-    string getClassName() const override { return #K; }                                                                                    \
-    string getBaseClassName(unsigned int i = 0) const override { return i == 0 ? #Base : ""; }                                             \
+#define REGISTER_CLASS_AND_BASE(K, Base)                                                                                    \
+public:                                                                                                                     \
+    string getClassName() const override { return #K; }                                                                     \
+    string getBaseClassName(unsigned int i = 0) const override { return i == 0 ? #Base : ""; }                              \
     int getBaseClassNumber() const override { return 1; }

@@ -29,10 +29,10 @@ template <class Archive, class Indexed, int N> void archiveComponents(Archive& a
 
 namespace boost::serialization {
 
-#define YADE_ABI_ARCHIVE_VECTOR(Type, ...)                                                                                                 \
-    template <class Archive> void serialize(Archive& ar, Type& v, const unsigned int)                                                      \
-    {                                                                                                                                      \
-        yade::abi::archiveComponents(ar, v, { __VA_ARGS__ });                                                                              \
+#define YADE_ABI_ARCHIVE_VECTOR(Type, ...)                                                                                  \
+    template <class Archive> void serialize(Archive& ar, Type& v, const unsigned int)                                       \
+    {                                                                                                                       \
+        yade::abi::archiveComponents(ar, v, { __VA_ARGS__ });                                                               \
     }
 YADE_ABI_ARCHIVE_VECTOR(yade::Vector2i, "x", "y")
 YADE_ABI_ARCHIVE_VECTOR(yade::Vector2r, "x", "y")

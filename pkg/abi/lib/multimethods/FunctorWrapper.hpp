@@ -37,6 +37,6 @@ public:
 } // namespace yade
 
 // In a functor of two unequal shapes: the order in which go() takes them.
-#define DEFINE_FUNCTOR_ORDER_2D(First, Second)                                                                                             \
-public:                                                                                                                                    \
+#define DEFINE_FUNCTOR_ORDER_2D(First, Second)                                                                              \
+public:                                                                                                                     \
     std::string checkOrder() const override { return #First " " #Second; }

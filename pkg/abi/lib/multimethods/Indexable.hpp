@@ -28,47 +28,47 @@ static_assert(sizeof(Indexable) == 8, "YADE 2023.02a: size of Indexable");
 } // namespace yade
 
 // The number is one variable a process: the dynamic linker unites it with that of the loaded YADE.
-#define YADE_ABI_CLASS_INDEX                                                                                                               \
-private:                                                                                                                                   \
-    static int& modifyClassIndexStatic()                                                                                                   \
-    {                                                                                                                                      \
-        static int index = -1;                                                                                                             \
-        return index;                                                                                                                      \
-    }                                                                                                                                      \
-                                                                                                                                           \
-public:                                                                                                                                    \
+#define YADE_ABI_CLASS_INDEX                                                                                                \
+private:                                                                                                                    \
+    static int& modifyClassIndexStatic()                                                                                    \
+    {                                                                                                                       \
+        static int index = -1;                                                                                              \
+        return index;                                                                                                       \
+    }                                                                                                                       \
+                                                                                                                            \
+public:                                                                                                                     \
     static const int& getClassIndexStatic() { return modifyClassIndexStatic(); }
 
 // In a plugin's class.
-#define REGISTER_CLASS_INDEX(K, Base)                                                                                                      \
-    YADE_ABI_CLASS_INDEX                                                                                                                   \
-protected:                                                                                                                                 \
-    int& modifyClassIndex() override { return modifyClassIndexStatic(); }                                                                  \
-                                                                                                                                           \
-public:                                                                                                                                    \
-    const int& getClassIndex() const override { return getClassIndexStatic(); }                                                            \
-    const int& getBaseClassIndex(int depth) const override                                                                                 \
-    {                                                                                                                                      \
-        static const std::unique_ptr<const Base> parent(new Base);                                                                         \
-        return depth == 1 ? parent->getClassIndex() : parent->getBaseClassIndex(depth - 1);                                                \
+#define REGISTER_CLASS_INDEX(K, Base)                                                                                       \
+    YADE_ABI_CLASS_INDEX                                                                                                    \
+protected:                                                                                                                  \
+    int& modifyClassIndex() override { return modifyClassIndexStatic(); }                                                   \
+                                                                                                                            \
+public:                                                                                                                     \
+    const int& getClassIndex() const override { return getClassIndexStatic(); }                                             \
+    const int& getBaseClassIndex(int depth) const override                                                                  \
+    {                                                                                                                       \
+        static const std::unique_ptr<const Base> parent(new Base);                                                          \
+        return depth == 1 ? parent->getClassIndex() : parent->getBaseClassIndex(depth - 1);                                 \
     }
 
 // In a class of YADE.
-#define YADE_ABI_STOCK_INDEX(K)                                                                                                            \
-    YADE_ABI_CLASS_INDEX                                                                                                                   \
-protected:                                                                                                                                 \
-    int& modifyClassIndex() override;                                                                                                      \
-                                                                                                                                           \
-public:                                                                                                                                    \
-    const int& getClassIndex() const override;                                                                                             \
+#define YADE_ABI_STOCK_INDEX(K)                                                                                             \
+    YADE_ABI_CLASS_INDEX                                                                                                    \
+protected:                                                                                                                  \
+    int& modifyClassIndex() override;                                                                                       \
+                                                                                                                            \
+public:                                                                                                                     \
+    const int& getClassIndex() const override;                                                                              \
     const int& getBaseClassIndex(int) const override;
 
 // In a class of YADE that heads a family: Shape, Bound, Material, State, IGeom, IPhys.
-#define YADE_ABI_STOCK_INDEX_HEAD(K)                                                                                                       \
-    YADE_ABI_STOCK_INDEX(K)                                                                                                                \
-    const int& getMaxCurrentlyUsedClassIndexOfKin() const override;                                                                        \
-                                                                                                                                           \
-protected:                                                                                                                                 \
-    void incrementMaxCurrentlyUsedClassIndexOfKin() override;                                                                              \
-                                                                                                                                           \
+#define YADE_ABI_STOCK_INDEX_HEAD(K)                                                                                        \
+    YADE_ABI_STOCK_INDEX(K)                                                                                                 \
+    const int& getMaxCurrentlyUsedClassIndexOfKin() const override;                                                         \
+                                                                                                                            \
+protected:                                                                                                                  \
+    void incrementMaxCurrentlyUsedClassIndexOfKin() override;                                                               \
+                                                                                                                            \
 public:

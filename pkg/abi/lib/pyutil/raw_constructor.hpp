@@ -14,7 +14,10 @@ class KeywordConstructor {
     boost::python::object init;
 
 public:
-    explicit KeywordConstructor(boost::python::object made) : init(made) { }
+    explicit KeywordConstructor(boost::python::object made)
+        : init(made)
+    {
+    }
 
     PyObject* operator()(PyObject* args, PyObject* keywords) const
     {
@@ -27,8 +30,9 @@ public:
     template <class Create> static boost::python::object make(Create create)
     {
         namespace bp = boost::python;
-        return bp::detail::make_raw_function(bp::objects::py_function(
-                KeywordConstructor(bp::make_constructor(create)), boost::mpl::vector2<void, bp::object>(), 1, std::numeric_limits<unsigned>::max()));
+        return bp::detail::make_raw_function(bp::objects::py_function(KeywordConstructor(bp::make_constructor(create)),
+                                                                      boost::mpl::vector2<void, bp::object>(), 1,
+                                                                      std::numeric_limits<unsigned>::max()));
     }
 };
 

@@ -10,13 +10,20 @@
 namespace yade::abi {
 
 // Vectors and the like reach Python by reference, so that o.v[0] = 1 changes the object; all else by value.
-template <class T> struct ByReference : std::false_type { };
-template <> struct ByReference<Vector2i> : std::true_type { };
-template <> struct ByReference<Vector2r> : std::true_type { };
-template <> struct ByReference<Vector3i> : std::true_type { };
-template <> struct ByReference<Vector3r> : std::true_type { };
-template <> struct ByReference<Quaternionr> : std::true_type { };
-template <> struct ByReference<Matrix3r> : std::true_type { };
+template <class T> struct ByReference : std::false_type {
+};
+template <> struct ByReference<Vector2i> : std::true_type {
+};
+template <> struct ByReference<Vector2r> : std::true_type {
+};
+template <> struct ByReference<Vector3i> : std::true_type {
+};
+template <> struct ByReference<Vector3r> : std::true_type {
+};
+template <> struct ByReference<Quaternionr> : std::true_type {
+};
+template <> struct ByReference<Matrix3r> : std::true_type {
+};
 
 // What Python calls for K(name=value, ...).
 template <class K> shared_ptr<K> createFromKeywords(py::tuple args, py::dict keywords)
@@ -39,7 +46,7 @@ template <class K> struct SetByName {
     {
         if (done || key != name) return;
         object.*attribute = py::extract<T>(value)();
-        done              = true;
+        done = true;
     }
 };
 
@@ -67,14 +74,15 @@ template <class K, class PyClass> struct Exposed {
     {
         if (flags & Attr::hidden) return;
         const string text = string(doc) + " :yattrflags:`" + std::to_string(flags) + "` ";
-        const auto get    = getter(attribute);
-        const auto set    = [attribute](K& object, const T& value) { object.*attribute = value; };
+        const auto get = getter(attribute);
+        const auto set = [attribute](K& object, const T& value) { object.*attribute = value; };
         const auto reload = [attribute](K& object, const T& value) {
             object.*attribute = value;
             object.callPostLoad();
         };
         using Setter = boost::mpl::vector3<void, K&, const T&>;
-        if (flags & Attr::readonly) shown.add_property(name, get, text.c_str());
+        if (flags & Attr::readonly)
+            shown.add_property(name, get, text.c_str());
         else if (flags & Attr::triggerPostLoad)
             shown.add_property(name, get, py::make_function(reload, py::default_call_policies(), Setter()), text.c_str());
         else
@@ -82,7 +90,8 @@ template <class K, class PyClass> struct Exposed {
     }
     template <class T, class C> static py::object getter(T C::*attribute)
     {
-        if constexpr (ByReference<T>::value) return py::make_getter(attribute, py::return_internal_reference<>());
+        if constexpr (ByReference<T>::value)
+            return py::make_getter(attribute, py::return_internal_reference<>());
         else
             return py::make_getter(attribute, py::return_value_policy<py::return_by_value>());
     }
@@ -92,84 +101,90 @@ template <class K, class PyClass> struct Exposed {
 
 #define YADE_CLASS_BASE_DOC(K, Base, doc) YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, , , , )
 #define YADE_CLASS_BASE_DOC_ATTRS(K, Base, doc, attrs) YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, , , )
-#define YADE_CLASS_BASE_DOC_ATTRS_CTOR(K, Base, doc, attrs, ctor) YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, , ctor, )
-#define YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(K, Base, doc, attrs, ctor, py)                                                                   \
+#define YADE_CLASS_BASE_DOC_ATTRS_CTOR(K, Base, doc, attrs, ctor)                                                           \
+    YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, , ctor, )
+#define YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(K, Base, doc, attrs, ctor, py)                                                    \
     YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, , ctor, py)
-#define YADE_CLASS_BASE_DOC_ATTRS_DEPREC_INIT_CTOR_PY(K, Base, doc, attrs, deprecated, inits, ctor, py)                                    \
-    static_assert(BOOST_PP_SEQ_SIZE(deprecated) == 0, "a new class has no deprecated attributes");                                         \
+#define YADE_CLASS_BASE_DOC_ATTRS_DEPREC_INIT_CTOR_PY(K, Base, doc, attrs, deprecated, inits, ctor, py)                     \
+    static_assert(BOOST_PP_SEQ_SIZE(deprecated) == 0, "a new class has no deprecated attributes");                          \
     YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, inits, ctor, py)
 
 // inits: ((member, value))... for members that are no attributes; ctor: statements of the constructor; py: .def(...) and the like.
-#define YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, inits, ctor, py)                                                       \
-public:                                                                                                                                    \
-    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_ATTR_MEMBER, ~, attrs)                                                                                  \
-    K() BOOST_PP_IF(BOOST_PP_SEQ_SIZE(inits), :, ) BOOST_PP_SEQ_FOR_EACH_I(YADE_ABI_INIT, ~, inits) { ctor; }                              \
-    REGISTER_CLASS_AND_BASE(K, Base)                                                                                                       \
-                                                                                                                                           \
-    template <class Visitor> static void eachAttribute([[maybe_unused]] Visitor& visit)                                                    \
-    {                                                                                                                                      \
-        BOOST_PP_SEQ_FOR_EACH(YADE_ABI_ATTR_VISIT, K, attrs)                                                                               \
-    }                                                                                                                                      \
-    void pySetAttr(const std::string& key, const ::boost::python::object& value) override                                                  \
-    {                                                                                                                                      \
-        ::yade::abi::SetByName<K> set { *this, key, value };                                                                               \
-        eachAttribute(set);                                                                                                                \
-        if (!set.done) Base::pySetAttr(key, value);                                                                                        \
-    }                                                                                                                                      \
-    ::boost::python::dict pyDict() const override                                                                                          \
-    {                                                                                                                                      \
-        ::boost::python::dict values;                                                                                                      \
-        ::yade::abi::CollectValues<K> collect { *this, values };                                                                           \
-        eachAttribute(collect);                                                                                                            \
-        values.update(this->pyDictCustom());                                                                                               \
-        values.update(Base::pyDict());                                                                                                     \
-        return values;                                                                                                                     \
-    }                                                                                                                                      \
-    void callPostLoad() override                                                                                                           \
-    {                                                                                                                                      \
-        Base::callPostLoad();                                                                                                              \
-        postLoad(*this);                                                                                                                   \
-    }                                                                                                                                      \
-    void pyRegisterClass(::boost::python::object where) override                                                                           \
-    {                                                                                                                                      \
-        checkPyClassRegistersItself(#K);                                                                                                   \
-        const ::boost::python::scope in(where);                                                                                            \
-        const ::boost::python::docstring_options shownDocs(true, true, false);                                                             \
-        using Shown = ::boost::python::class_<K, ::boost::shared_ptr<K>, ::boost::python::bases<Base>, ::boost::noncopyable>;              \
-        Shown shown(#K, doc);                                                                                                              \
-        shown.def("__init__", ::yade::abi::KeywordConstructor::make(::yade::abi::createFromKeywords<K>));                                  \
-        ::yade::abi::Exposed<K, Shown> expose { shown };                                                                                   \
-        eachAttribute(expose);                                                                                                             \
-        (void)shown py;                                                                                                                    \
-    }                                                                                                                                      \
-                                                                                                                                           \
-private:                                                                                                                                   \
-    friend class boost::serialization::access;                                                                                             \
-    template <class ArchiveT> void serialize(ArchiveT& archive, unsigned int)                                                              \
-    {                                                                                                                                      \
-        archive& boost::serialization::make_nvp(#Base, boost::serialization::base_object<Base>(*this));                                    \
-        if (ArchiveT::is_loading::value) preLoad(*this);                                                                                   \
-        else                                                                                                                               \
-            preSave(*this);                                                                                                                \
-        ::yade::abi::Archived<K, ArchiveT> each { *this, archive };                                                                        \
-        eachAttribute(each);                                                                                                               \
-        if (ArchiveT::is_loading::value) postLoad(*this);                                                                                  \
-        else                                                                                                                               \
-            postSave(*this);                                                                                                               \
-    }                                                                                                                                      \
-                                                                                                                                           \
+#define YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(K, Base, doc, attrs, inits, ctor, py)                                        \
+public:                                                                                                                     \
+    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_ATTR_MEMBER, ~, attrs)                                                                   \
+    K() BOOST_PP_IF(BOOST_PP_SEQ_SIZE(inits), :, ) BOOST_PP_SEQ_FOR_EACH_I(YADE_ABI_INIT, ~, inits) { ctor; }               \
+    REGISTER_CLASS_AND_BASE(K, Base)                                                                                        \
+                                                                                                                            \
+    template <class Visitor> static void eachAttribute([[maybe_unused]] Visitor& visit)                                     \
+    {                                                                                                                       \
+        BOOST_PP_SEQ_FOR_EACH(YADE_ABI_ATTR_VISIT, K, attrs)                                                                \
+    }                                                                                                                       \
+    void pySetAttr(const std::string& key, const ::boost::python::object& value) override                                   \
+    {                                                                                                                       \
+        ::yade::abi::SetByName<K> set { *this, key, value };                                                                \
+        eachAttribute(set);                                                                                                 \
+        if (!set.done) Base::pySetAttr(key, value);                                                                         \
+    }                                                                                                                       \
+    ::boost::python::dict pyDict() const override                                                                           \
+    {                                                                                                                       \
+        ::boost::python::dict values;                                                                                       \
+        ::yade::abi::CollectValues<K> collect { *this, values };                                                            \
+        eachAttribute(collect);                                                                                             \
+        values.update(this->pyDictCustom());                                                                                \
+        values.update(Base::pyDict());                                                                                      \
+        return values;                                                                                                      \
+    }                                                                                                                       \
+    void callPostLoad() override                                                                                            \
+    {                                                                                                                       \
+        Base::callPostLoad();                                                                                               \
+        postLoad(*this);                                                                                                    \
+    }                                                                                                                       \
+    void pyRegisterClass(::boost::python::object where) override                                                            \
+    {                                                                                                                       \
+        checkPyClassRegistersItself(#K);                                                                                    \
+        const ::boost::python::scope in(where);                                                                             \
+        const ::boost::python::docstring_options shownDocs(true, true, false);                                              \
+        using Shown                                                                                                         \
+            = ::boost::python::class_<K, ::boost::shared_ptr<K>, ::boost::python::bases<Base>, ::boost::noncopyable>;       \
+        Shown shown(#K, doc);                                                                                               \
+        shown.def("__init__", ::yade::abi::KeywordConstructor::make(::yade::abi::createFromKeywords<K>));                   \
+        ::yade::abi::Exposed<K, Shown> expose { shown };                                                                    \
+        eachAttribute(expose);                                                                                              \
+        (void)shown py;                                                                                                     \
+    }                                                                                                                       \
+                                                                                                                            \
+private:                                                                                                                    \
+    friend class boost::serialization::access;                                                                              \
+    template <class ArchiveT> void serialize(ArchiveT& archive, unsigned int)                                               \
+    {                                                                                                                       \
+        archive& boost::serialization::make_nvp(#Base, boost::serialization::base_object<Base>(*this));                     \
+        if (ArchiveT::is_loading::value)                                                                                    \
+            preLoad(*this);                                                                                                 \
+        else                                                                                                                \
+            preSave(*this);                                                                                                 \
+        ::yade::abi::Archived<K, ArchiveT> each { *this, archive };                                                         \
+        eachAttribute(each);                                                                                                \
+        if (ArchiveT::is_loading::value)                                                                                    \
+            postLoad(*this);                                                                                                \
+        else                                                                                                                \
+            postSave(*this);                                                                                                \
+    }                                                                                                                       \
+                                                                                                                            \
 public:
 
 #define YADE_ABI_ATTR(i, a) BOOST_PP_TUPLE_ELEM(5, i, a)
-#define YADE_ABI_ATTR_MEMBER(r, _, a) YADE_ABI_ATTR(0, a) YADE_ABI_ATTR(1, a) = decltype(YADE_ABI_ATTR(1, a))(YADE_ABI_ATTR(2, a));
-#define YADE_ABI_ATTR_VISIT(r, K, a)                                                                                                       \
-    visit(BOOST_PP_STRINGIZE(YADE_ABI_ATTR(1, a)), &K::YADE_ABI_ATTR(1, a), (YADE_ABI_ATTR(3, a) + 0), YADE_ABI_ATTR(4, a)                 \
-          " :ydefault:`" BOOST_PP_STRINGIZE(YADE_ABI_ATTR(2, a)) "` :yattrtype:`" BOOST_PP_STRINGIZE(YADE_ABI_ATTR(0, a)) "`");
+#define YADE_ABI_ATTR_MEMBER(r, _, a)                                                                                       \
+    YADE_ABI_ATTR(0, a) YADE_ABI_ATTR(1, a) = decltype(YADE_ABI_ATTR(1, a))(YADE_ABI_ATTR(2, a));
+#define YADE_ABI_ATTR_VISIT(r, K, a)                                                                                        \
+    visit(BOOST_PP_STRINGIZE(YADE_ABI_ATTR(1, a)), &K::YADE_ABI_ATTR(1, a), (YADE_ABI_ATTR(3, a) + 0),                      \
+          YADE_ABI_ATTR(4, a) " :ydefault:`" BOOST_PP_STRINGIZE(YADE_ABI_ATTR(2, a)) "` :yattrtype:`" BOOST_PP_STRINGIZE(   \
+              YADE_ABI_ATTR(0, a)) "`");
 #define YADE_ABI_INIT(r, _, i, pair) BOOST_PP_COMMA_IF(i) BOOST_PP_TUPLE_ELEM(2, 0, pair)(BOOST_PP_TUPLE_ELEM(2, 1, pair))
 
 // After a class, in namespace yade: makes it known to the factory and gives its archives the name yade::K.
-#define REGISTER_SERIALIZABLE(K)                                                                                                           \
-    REGISTER_FACTORABLE(K)                                                                                                                 \
-    }                                                                                                                                      \
-    BOOST_CLASS_EXPORT_KEY(yade::K)                                                                                                        \
+#define REGISTER_SERIALIZABLE(K)                                                                                            \
+    REGISTER_FACTORABLE(K)                                                                                                  \
+    }                                                                                                                       \
+    BOOST_CLASS_EXPORT_KEY(yade::K)                                                                                         \
     namespace yade {

@@ -9,7 +9,11 @@ class Box : public Shape {
 public:
     Vector3r extents; // half edges [m]
 
-    Box() : extents() { createIndex(); }
+    Box()
+        : extents()
+    {
+        createIndex();
+    }
     YADE_ABI_STOCK(Box)
     YADE_ABI_STOCK_INDEX(Box)
 };

@@ -7,7 +7,7 @@ namespace yade {
 
 class ElastMat : public Material {
 public:
-    Real young   = 1e9; // [Pa]
+    Real young = 1e9; // [Pa]
     Real poisson = .25;
 
     ElastMat() { createIndex(); }

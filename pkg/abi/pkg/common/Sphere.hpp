@@ -10,7 +10,11 @@ public:
     Real radius; // [m]
 
     Sphere();
-    Sphere(Real r) : radius(r) { createIndex(); }
+    Sphere(Real r)
+        : radius(r)
+    {
+        createIndex();
+    }
     YADE_ABI_STOCK(Sphere)
     YADE_ABI_STOCK_INDEX(Sphere)
 };

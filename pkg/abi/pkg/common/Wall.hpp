@@ -10,7 +10,7 @@ namespace yade {
 class Wall : public Shape {
 public:
     int sense = 0; // side that interacts: -1, +1, or 0 for both
-    int axis  = 0; // of the normal: 0, 1, 2
+    int axis = 0;  // of the normal: 0, 1, 2
 
     Wall() { createIndex(); }
     YADE_ABI_STOCK(Wall)
