@@ -54,8 +54,9 @@ void SoftGrain::discretise()
     resolution.points = points;
     resolution.surface_spacing = surfaceSpacing;
     resolution.node_threshold = nodeThreshold;
+    resolution.mean_dilatation = meanDilatation;
     resolution.offset = { gridOffset[0], gridOffset[1], 0 };
-    Key key { { double(points), surfaceSpacing, nodeThreshold, gridOffset[0], gridOffset[1] }, {} };
+    Key key { { double(points), surfaceSpacing, nodeThreshold, double(meanDilatation), gridOffset[0], gridOffset[1] }, {} };
     if (vertices.empty()) {
         if (!(radius > 1e-12 && radius < 1e6))
             throw softgrain::UserError("SoftGrain: radius = " + softgrain::shown(radius)

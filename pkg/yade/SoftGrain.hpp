@@ -56,6 +56,12 @@ public:
                      "total",
                      Attr::triggerPostLoad,
                      "'total': Lagrangian in the undeformed grain; 'updated': the points carry the state, the grid stands still in space."))(
+                    (bool,
+                     meanDilatation,
+                     true,
+                     Attr::triggerPostLoad,
+                     "Whether the points of a cell share one volume change, which cures the locking of nearly incompressible grains; false is "
+                     "for comparisons."))(
                     (Vector2r, gridOffset, Vector2r::Zero(), Attr::triggerPostLoad, "Shift of the grid under the grain [width of a grid cell].")),
             createIndex(),
             .def("pointCount", &SoftGrain::pointCount, "Number of material points [-].")

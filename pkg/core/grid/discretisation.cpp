@@ -153,7 +153,7 @@ template <int Dim> Discretisation<Dim>::Discretisation(const Outline<Dim>& outli
     const Cells cells(outline, resolution, cells_for(outline, resolution));
     cell_width = cells.width;
     node_threshold = resolution.threshold();
-    place_points(cells);
+    place_points(cells, resolution.mean_dilatation);
     place_surface(outline, cells, resolution.surface_spacing * cell_width);
     bind_slaves(node_threshold * *std::max_element(node_mass.begin(), node_mass.end()));
     for (double mass : node_mass)
@@ -162,7 +162,7 @@ template <int Dim> Discretisation<Dim>::Discretisation(const Outline<Dim>& outli
     build_delassus();
 }
 
-template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
+template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells, bool mean_dilatation)
 {
     std::map<typename Cells::Index, int, IndexLess<Dim>> node_of;
     int full_cell = -1; // where the gradients of full cells are
@@ -184,7 +184,8 @@ template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
             by_cell[cells.cell_of(x)].push_back(x);
         }
         const bool full = cells.full[c];
-        regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume, full });
+        const double pointwise = !mean_dilatation ? 1 : full ? 0 : 0.8;
+        regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume, full, pointwise });
         for (const auto& [cell, positions] : by_cell) {
             const int in_block = int(positions.size());
             const bool known = full && full_cell >= 0;

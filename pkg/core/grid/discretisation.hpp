@@ -21,6 +21,7 @@ struct Resolution {
     double node_threshold
         = 0; ///< nodes with less mass follow their neighbours [mass of the heaviest node]; 0: threshold() chooses
     double merge_threshold = 0.35;   ///< cells filled less join a neighbour [volume of a cell]
+    bool mean_dilatation = true;     ///< cure of volumetric locking: cells have one volume change, not each point its own
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
 
     /// Light nodes soften narrow contacts, as they should be, but let the surface of a coarse grain wrinkle.
@@ -73,7 +74,8 @@ public:
     struct Region {
         int first_block, block_count;
         double volume;
-        bool full; ///< a whole cell, its points the 2-point Gauss rule
+        bool full;        ///< a whole cell, its points the 2-point Gauss rule
+        double pointwise; ///< share of the volumetric stiffness that acts on each point's own volume change
     };
     std::vector<Region> regions;
     int point_count() const { return int(point_position.size()); }
@@ -103,7 +105,7 @@ public:
 
 private:
     struct Cells;
-    void place_points(const Cells& cells);
+    void place_points(const Cells& cells, bool mean_dilatation);
     void place_surface(const Outline<Dim>& outline, const Cells& cells, double spacing);
     void bind_slaves(double threshold);
     void average_gradients();

@@ -64,9 +64,9 @@ template <int Dim> struct LawKernels {
     Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
     /// The same as in internal_force for the points of one region: first Piola stresses times `scale` in place of their
     /// deformation gradients; returns the smallest J.
-    double (*region_stress)(const double* parameters, bool full, double scale, Tensor<Dim, double>* F);
+    double (*region_stress)(const double* parameters, double share, double scale, Tensor<Dim, double>* F);
     /// The same as in energy for one region of this volume; `min_stretch` falls to the smallest stretch.
-    double (*region_energy)(const double* parameters, bool full, double volume, const Tensor<Dim, double>* F,
+    double (*region_energy)(const double* parameters, double share, double volume, const Tensor<Dim, double>* F,
                             double& min_stretch);
 };
 

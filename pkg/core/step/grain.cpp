@@ -203,7 +203,8 @@ template <int Dim> std::vector<Mat<3>> Grain<Dim>::cauchy_stresses() const
         for (int p = first; p < first + points; ++p) {
             Mat<3> whole = Mat<3>::Identity();
             whole.template topLeftCorner<Dim, Dim>() = F[p];
-            stress.push_back(law->cauchy_stress(parameters.data(), whole, mean_J));
+            stress.push_back(
+                law->cauchy_stress(parameters.data(), whole, region.pointwise < 1 ? mean_J : F[p].determinant()));
         }
     }
     return stress;

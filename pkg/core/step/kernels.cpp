@@ -88,18 +88,18 @@ namespace {
         return first_piola * deformation.transpose() / J;
     }
 
-    template <int Dim, class Law> double region_stress(const double* p, bool full, double scale, Tensor<Dim, double>* F)
+    template <int Dim, class Law> double region_stress(const double* p, double share, double scale, Tensor<Dim, double>* F)
     {
         double smallest = 1e300;
-        kernels::region_stress<Dim, Law>(p, full, scale, F, smallest);
+        kernels::region_stress<Dim, Law>(p, share, scale, F, smallest);
         return smallest;
     }
 
     template <int Dim, class Law>
-    double region_energy(const double* p, bool full, double volume, const Tensor<Dim, double>* F, double& min_stretch)
+    double region_energy(const double* p, double share, double volume, const Tensor<Dim, double>* F, double& min_stretch)
     {
         double sum = 0;
-        kernels::region_energy<Dim, Law>(p, full, volume, F, sum, min_stretch);
+        kernels::region_energy<Dim, Law>(p, share, volume, F, sum, min_stretch);
         return sum;
     }
 

@@ -90,7 +90,7 @@ double UpdatedBody<Dim>::kick(const Discretisation<Dim>& mesh, const LawKernels<
         Tensor<Dim, double> P[points];
         for (int q = 0; q < points; ++q)
             P[q] = tensor<Dim>(deformation[first + q]);
-        const double J = law.region_stress(parameters, mesh.regions[r].full, -mesh.regions[r].volume / points, P);
+        const double J = law.region_stress(parameters, mesh.regions[r].pointwise, -mesh.regions[r].volume / points, P);
         if (!(J >= smallest)) smallest = J; // also when it is no number
         for (int q = 0; q < points; ++q) {
             const int p = first + q;
@@ -192,7 +192,7 @@ double UpdatedBody<Dim>::elastic_energy(const Discretisation<Dim>& mesh, const L
             const Mat<Dim> one = Mat<Dim>::Identity(), &rate = rate_[first + q], &end = deformation[first + q];
             F[q] = tensor<Dim>(back == 0 ? end : (one + (dt - back) * rate) * (one + dt * rate).inverse() * end);
         }
-        sum += law.region_energy(parameters, mesh.regions[r].full, mesh.regions[r].volume, F, min_stretch);
+        sum += law.region_energy(parameters, mesh.regions[r].pointwise, mesh.regions[r].volume, F, min_stretch);
     }
     return sum;
 }
