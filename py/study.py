@@ -55,7 +55,7 @@ class Study(Run):
             while waiting or running:
                 while waiting and len(running) < at_once:
                     running.append(self._start(waiting.pop()))
-                self.progress.show(1 - left / total, f"{self.table.rows} of {len(jobs)} runs")
+                self.progress.show(max(1 - left / total, 0.0), f"{self.table.rows} of {len(jobs)} runs")
                 for job, process, folder in list(running):
                     if process.poll() is not None:
                         running.remove((job, process, folder))
