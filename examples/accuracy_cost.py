@@ -7,13 +7,13 @@ Each method runs over the points per grain, each other knob at 276 points, and p
 together, in two cases:
 
   grain    one disc between plates, force and area against finite elements, for several orientations of its grid
-  packing  about 60 discs, pressed to solid fraction 0.96; stress, coordination and volume change, means over 0.90 to
-           0.96, against its own finest run of the same seed; means over seeds, since single packings are chaotic
+  packing  about 60 discs, pressed to solid fraction 0.98; stress, coordination and volume change, means over 0.92 to
+           0.98, against the finest run of the same seed; means over seeds, since single packings are chaotic
 
-Writes accuracy_cost.csv, one row a run (its columns: COLUMNS below; lengths over the cell width, times and stresses in
-SI), figure1.png to figure3.png, accuracy.json, the table of presets that `accuracy=` of softDisc, softCloud and
-softEngines reads when it stands in py/, and summary.json into --out. Runs that are there are not computed again by
---resume. Times are CPU seconds of a run, start of YADE and figures left out.
+Writes accuracy_cost.csv, one row a run (columns: doc/conventions.md), figure1.png to figure5.png, summary.json and
+accuracy.json into --out: the table behind `accuracy=` of softDisc, softCloud and softEngines, when it stands in py/.
+--resume computes only what is missing. Times are CPU seconds of a run, start of YADE and figures left out; all numbers
+are doubles, no other type is offered.
 """
 import datetime
 import itertools

@@ -50,17 +50,18 @@ class Study(Run):
         """Runs the jobs that have no row yet, the dearest first."""
         done = {self._name(row, jobs[0].key) for row in self.rows()}
         waiting = sorted((job for job in jobs if self._name(job.key, job.key) not in done), key=lambda job: job.cost)
-        total, left, running = sum(job.cost for job in jobs), sum(job.cost for job in waiting), []
+        left, running = sum(job.cost for job in waiting), []
+        self._show(left, jobs)
         try:
             while waiting or running:
                 while waiting and len(running) < at_once:
                     running.append(self._start(waiting.pop()))
-                self.progress.show(max(1 - left / total, 0.0), f"{self.table.rows} of {len(jobs)} runs")
                 for job, process, folder in list(running):
                     if process.poll() is not None:
                         running.remove((job, process, folder))
                         self._record(job, process, folder)
                         left -= job.cost
+                        self._show(left, jobs)
                 if self.interrupted():
                     self.stop()
                 time.sleep(POLL_SECONDS)
@@ -69,6 +70,10 @@ class Study(Run):
                 process.terminate()
                 process.wait()
                 shutil.rmtree(folder)
+
+    def _show(self, left, jobs):
+        share = 1 - left / sum(job.cost for job in jobs)
+        self.progress.show(max(share, 0.0), f"{self.table.rows} of {len(jobs)} runs")
 
     def rows(self):
         """All rows that are there: dicts, numbers as numbers."""

@@ -4,12 +4,11 @@ import os
 import sys
 
 from yade import O
-from yade.wrapper import SoftTimeStepper
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import EXAMPLES, Folder, run_example, run_tests, said  # noqa: E402
-from softgrain import MooneyRivlinMat, NeoHookeanMat, measures, presets, softCloud, softDisc, softEngines  # noqa: E402
-from softgrain import work_precision  # noqa: E402
+from softgrain import (  # noqa: E402
+    MooneyRivlinMat, NeoHookeanMat, SoftTimeStepper, measures, presets, softCloud, softDisc, softEngines, work_precision)
 from softgrain.checks import InputError  # noqa: E402
 from softgrain.options import Options  # noqa: E402
 from softgrain.study import Job, Study  # noqa: E402
@@ -48,7 +47,7 @@ def the_cheapest_setting_is_taken(checks):
 def builders_take_an_accuracy(checks):
     chosen = presets.settings("test", "draft")
     for body in (softDisc((0, 0), 1e-3, NeoHookeanMat(), accuracy="draft"),
-                 softCloud(0.01, 4, material=MooneyRivlinMat(), accuracy="draft")[0][0]):
+                 softCloud(6e-3, 4, material=MooneyRivlinMat(), accuracy="draft")[0][0]):
         checks.that("points", body.shape.points == chosen["points"])
         checks.close_to("spacing", body.shape.surfaceSpacing, chosen["surface_spacing"], 1e-12)
     checks.that("without one", softDisc((0, 0), 1e-3, NeoHookeanMat()).shape.points == 276)
