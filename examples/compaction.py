@@ -53,7 +53,7 @@ def make_scene(options):
     wall_material = O.materials.append(FrictMat(frictionAngle=math.atan(options.wall_friction), label="walls"))
     width = builders.widthOfSquareCloud(options.grains, options.diameters, options.solid_fraction)
     grains, height = softCloud(width, options.grains, options.diameters, options.solid_fraction, grain_material,
-                               options.points, options.seed)
+                               options.points, options.seed, formulation=options.formulation)
     O.bodies.append(grains)
     _, _, bottom, top = O.bodies.append(softBox(width, height, wall_material))
     O.engines = softEngines(dt=options.dt, friction=options.friction, wallFriction=options.wall_friction)
@@ -64,7 +64,8 @@ def check(result, options):
     """What must hold of any such run: list of (what, holds)."""
     end, point = result["end"], result["jamming"]
     balance, depth = result["energy_residual_over_work"], result["deepest_penetration"]
-    checks = [(f"energy residual below 0.2 % of the external work ({balance:.3%})", balance < 2e-3),
+    allowed = 2e-2 if options.formulation == "updated" else 2e-3     # grids laid anew do not conserve energy
+    checks = [(f"energy residual below {allowed:.1%} of the external work ({balance:.3%})", balance < allowed),
               (f"penetration below 0.5 % of R ({depth:.3%})", depth < 5e-3),
               (f"no point inverted (least J {end['min_J']:.3f})", end["min_J"] > 0),
               (f"solid fraction {options.until:g} reached ({end['solid_fraction']:.4f})",

@@ -150,7 +150,7 @@ def add_method(parser):
     group.add_argument("--integrator", choices=("explicit", "implicit"), default="explicit",
                        help="time integration; implicit is not there yet")
     group.add_argument("--formulation", choices=("total", "updated"), default="total",
-                       help="Lagrangian formulation; updated is not there yet")
+                       help="Lagrangian in the undeformed grain, or updated: state on the points, grid laid anew each step")
     group.add_argument("--dt", type=positive, default=None, metavar="S", help="time step; None: chosen automatically")
 
 
@@ -158,8 +158,6 @@ def refuse_what_is_not_there(options):
     """InputError for options that are announced but not there yet."""
     if getattr(options, "integrator", "explicit") == "implicit":
         raise InputError("--integrator implicit is not there yet: use explicit.")
-    if getattr(options, "formulation", "total") == "updated":
-        raise InputError("--formulation updated is not there yet: use total.")
     if getattr(options, "quasistatic", False):
         raise InputError("--quasistatic is not there yet: leave it away and choose a small --speed.")
 

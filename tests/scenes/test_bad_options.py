@@ -33,7 +33,7 @@ BAD = [
     ("compaction", ["--material", "rubber"], ["--material", "rubber"]),
     ("compaction", ["--seed", "-4"], ["--seed", "-4"]),
     ("compaction", ["--integrator", "implicit"], ["implicit", "not there yet"]),
-    ("compaction", ["--formulation", "updated"], ["updated", "not there yet"]),
+    ("compaction", ["--formulation", "eulerian"], ["eulerian", "total", "updated"]),
     ("compaction", ["--threads", "0"], ["--threads", "0"]),
     ("compaction", ["--out", "/proc/nowhere"], ["/proc/nowhere", "--out"]),
     ("compaction", ["--threads", "9999"], ["--threads", "9999", "cores"]),

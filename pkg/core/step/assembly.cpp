@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace softgrain {
@@ -53,6 +54,44 @@ namespace {
                               + shown(grain.surface.speed) + " m/s) or take a smaller time step.");
     }
 
+    template <int Dim> void predict_updated(Grain<Dim>& grain, double dt, const Vec<Dim>& gravity)
+    {
+        UpdatedBody<Dim>& body = *grain.updated;
+        Surface<Dim>& surface = grain.surface;
+        surface.response = &body.response();    // of this very grain, which may be a copy
+        for (int p = 0; p < surface.count; ++p) // on the grid of this step
+            Eigen::Map<Vec<Dim>>(&surface.velocity_before[size_t(Dim) * p]) = grain.radius * body.velocity_at_surface(p);
+        if (grain.spin_acceleration != Mat<Dim>::Zero()) grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
+        grain.min_J
+            = body.kick(*grain.mesh, *grain.law, grain.parameters.data(), dt / (grain.density * grain.radius * grain.radius),
+                        dt / grain.radius * (gravity + grain.acceleration));
+        for (int p = 0; p < surface.count; ++p)
+            surface.v(p) = grain.radius * body.velocity_at_surface(p);
+    }
+
+    template <int Dim> void correct_updated(Grain<Dim>& grain, double dt)
+    {
+        UpdatedBody<Dim>& body = *grain.updated;
+        Surface<Dim>& surface = grain.surface;
+        const double unit = surface.mobility / grain.radius;
+        double speed2 = 0;
+        for (int p = 0; p < surface.count; ++p) {
+            const Eigen::Map<Vec<Dim>> impulse(&surface.impulse[size_t(Dim) * p]);
+            if (impulse != Vec<Dim>::Zero()) body.push(p, unit * impulse);
+            speed2 = std::max(speed2, surface.v(p).squaredNorm());
+        }
+        std::fill(surface.impulse.begin(), surface.impulse.end(), 0);
+        surface.speed = std::sqrt(speed2);
+        surface.travel += dt * surface.speed;
+        if (leaps(grain, dt)) return;
+        if (!body.drift(dt)) {
+            grain.motion.kinetic = std::numeric_limits<double>::quiet_NaN();
+            return;
+        }
+        grain.settle();
+        surface.bound();
+    }
+
 } // namespace
 
 template <int Dim>
@@ -62,6 +101,10 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
     std::map<std::pair<const void*, const void*>, std::vector<Grain<Dim>*>> groups;
     std::vector<std::pair<const void*, const void*>> order;
     for (Grain<Dim>* grain : grains_) {
+        if (grain->updated) {
+            updated_.push_back(grain);
+            continue;
+        }
         auto& group = groups[{ grain->mesh.get(), grain->law }];
         if (group.empty()) order.push_back({ grain->mesh.get(), grain->law });
         group.push_back(grain);
@@ -91,7 +134,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
             members_.push_back(part);
         }
     }
-    least_J_.assign(batches_.size(), 1);
+    least_J_.assign(batches_.size() + updated_.size(), 1);
     for (size_t b = 0; b < batches_.size(); ++b)
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             members_[b][lane]->batch = batches_[b].get();
@@ -136,18 +179,25 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         }
         least_J_[b] = least;
     }
-    for (int b = 0; b < count; ++b)
-        if (!(least_J_[b] > 0))
-            for (Grain<Dim>* grain : members_[b])
-                if (!(grain->min_J > 0)) report_inversion(*grain);
+    const int single = int(updated_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        predict_updated(*updated_[g], dt, gravity);
+        const double J = updated_[g]->min_J;
+        least_J_[count + g] = J >= 1 ? 1 : J;
+    }
+    if (!std::all_of(least_J_.begin(), least_J_.end(), [](double J) { return J > 0; }))
+        for (Grain<Dim>* grain : grains_)
+            if (!(grain->min_J > 0)) report_inversion(*grain);
 }
 
 template <int Dim> double Assembly<Dim>::min_J() const { return *std::min_element(least_J_.begin(), least_J_.end()); }
 
 template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Visit& before, const Visit& after)
 {
-    std::vector<char> sound(batches_.size(), true);
-    const int count = int(batches_.size());
+    const int count = int(batches_.size()), single = int(updated_.size());
+    std::vector<char> sound(count + single, true);
+    std::vector<std::string> complaint(single);
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
@@ -192,12 +242,25 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
             if (after) after(grain);
         }
     }
-    for (int b = 0; b < count; ++b)
-        if (!sound[b])
-            for (Grain<Dim>* grain : members_[b]) {
-                if (!is_finite(*grain)) report_not_finite(*grain);
-                if (leaps(*grain, dt)) report_leap(*grain, dt);
-            }
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        Grain<Dim>& grain = *updated_[g];
+        if (before) before(grain);
+        try {
+            correct_updated(grain, dt);
+        } catch (const SimulationError& error) { // must not leave the parallel loop
+            complaint[g] = error.what();
+        }
+        sound[count + g] = is_finite(grain) && !leaps(grain, dt) && complaint[g].empty();
+        if (after && sound[count + g]) after(grain);
+    }
+    if (std::all_of(sound.begin(), sound.end(), [](char is) { return is; })) return;
+    for (Grain<Dim>* grain : grains_) {
+        if (!is_finite(*grain)) report_not_finite(*grain);
+        if (leaps(*grain, dt)) report_leap(*grain, dt);
+    }
+    for (int g = 0; g < single; ++g)
+        if (!complaint[g].empty()) throw SimulationError(whose(updated_[g]->id) + ": " + complaint[g] + ".");
 }
 
 template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)
@@ -230,6 +293,10 @@ template <int Dim> void Assembly<Dim>::evaluate_stretch(int threads)
         for (size_t lane = 0; lane < members_[b].size(); ++lane)
             members_[b][lane]->min_stretch = batch.per_lane[lane];
     }
+    const int single = int(updated_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g)
+        updated_[g]->elastic_energy();
 }
 
 template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
@@ -250,6 +317,16 @@ template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
                 members_[b][lane]->elastic += share * std::pow(members_[b][lane]->radius, Dim) * batch.per_lane[lane];
             motion_kernels<Dim>().drift[batch.wide()](data, -dt / 2);
         }
+    }
+    const int single = int(updated_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        Grain<Dim>& grain = *updated_[g];
+        const auto energy = [&](double back) {
+            double min_stretch;
+            return grain.updated->elastic_energy(*grain.mesh, *grain.law, grain.parameters.data(), dt, back, min_stretch);
+        };
+        grain.elastic = std::pow(grain.radius, Dim) * (2 * energy(dt / 2) - (energy(dt) + energy(0)) / 2);
     }
 }
 

@@ -4,6 +4,8 @@
 //     v* = v + dt f(u) / m + dt g        predict
 //     v' = v* + contact impulses / m     (the caller fills the contact problem, a solver solves it)
 //     u' = u + dt v'                     correct
+//
+// Total-Lagrangian grains advance in batches; updated-Lagrangian ones (Grain::updated) one by one, on grids of their own.
 #pragma once
 
 #include "solver/contact_problem.hpp"
@@ -53,7 +55,8 @@ private:
     std::vector<Grain<Dim>*> grains_;
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
-    std::vector<double> least_J_;                   ///< of each batch
+    std::vector<Grain<Dim>*> updated_;              ///< updated-Lagrangian ones, which no batch holds
+    std::vector<double> least_J_;                   ///< of each batch, then of each updated-Lagrangian grain
 };
 
 extern template class Assembly<2>;
