@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 
 namespace softgrain {
 namespace {
@@ -331,40 +330,6 @@ template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
     }
 }
 
-template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
-{
-    Batch<Dim> batch(grain.mesh, *grain.law, 1);
-    for (int k = 0; k < max_parameters; ++k)
-        batch.parameters[k] = grain.parameters[k];
-    const int size = Dim * grain.mesh->master_count;
-    std::mt19937 generator(1);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    std::vector<double> x(size);
-    for (double& value : x)
-        value = uniform(generator);
-    // x <- M^-1 K x; K x by the force at a displacement small enough to be linear and large enough to be exact
-    constexpr double small = 1e-7;
-    double eigenvalue = 0;
-    for (int iteration = 0; iteration < 300; ++iteration) {
-        double norm = 0;
-        for (int i = 0; i < size; ++i)
-            norm += grain.mesh->node_mass[i / Dim] * x[i] * x[i];
-        norm = std::sqrt(norm);
-        for (int i = 0; i < size; ++i)
-            batch.displacement[i] = small * (x[i] /= norm);
-        double sums[MotionSums<Dim>::count], min_J;
-        motion_kernels<Dim>().observe[0](batch.data(), sums);
-        grain.law->internal_force[0](batch.data(), &min_J);
-        eigenvalue = 0;
-        for (int i = 0; i < size; ++i) {
-            eigenvalue -= x[i] * batch.force()[i] / small;
-            x[i] = -batch.force()[i] / small / grain.mesh->node_mass[i / Dim];
-        }
-    }
-    return 2 / std::sqrt(eigenvalue);
-}
-
 template class Assembly<2>;
-template double unit_critical_step<2>(const Grain<2>&);
 
 } // namespace softgrain
