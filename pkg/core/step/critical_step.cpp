@@ -87,16 +87,20 @@ template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
 
 template <int Dim> double SmallestCriticalStep<Dim>::operator()(const std::vector<Grain<Dim>*>& grains, int threads)
 {
+    double least = 1e300;
     Grains<Dim> bounded;
     for (const Grain<Dim>* grain : grains) {
         const auto [unit, added] = unit_.try_emplace({ grain->mesh, grain->law, grain->parameters }, 0);
         if (added) unit->second = unit_critical_step(*grain);
-        bounded.push_back({ grain, critical_step(*grain, unit->second) });
+        const double bound = critical_step(*grain, unit->second);
+        if (grain->updated)
+            least = std::min(least, bound); // its nodes have no displacements to vary
+        else
+            bounded.push_back({ grain, bound });
     }
     std::stable_sort(bounded.begin(), bounded.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     // a grain whose bound is over the step of some other is not in question
     const auto first = bounded.begin() + std::min<size_t>(8, bounded.size());
-    double least = 1e300;
     for (const auto& group : groups_of<Dim>({ bounded.begin(), first }))
         least = std::min(least, smallest_of(group));
     const auto end = std::find_if(first, bounded.end(), [least](const auto& grain) { return grain.second >= least; });
