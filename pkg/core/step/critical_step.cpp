@@ -87,14 +87,14 @@ template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
 
 template <int Dim> double SmallestCriticalStep<Dim>::operator()(const std::vector<Grain<Dim>*>& grains, int threads)
 {
-    Grains<Dim> bounded;
     double least = 1e300;
+    Grains<Dim> bounded;
     for (const Grain<Dim>* grain : grains) {
         const auto [unit, added] = unit_.try_emplace({ grain->mesh, grain->law, grain->parameters }, 0);
         if (added) unit->second = unit_critical_step(*grain);
         const double bound = critical_step(*grain, unit->second);
-        if (grain->updated) // its grid is another in every step
-            least = std::min(least, bound);
+        if (grain->updated)
+            least = std::min(least, bound); // its nodes have no displacements to vary
         else
             bounded.push_back({ grain, bound });
     }
