@@ -7,7 +7,8 @@ import matplotlib.pyplot as plt
 from .figures import COLOURS, MARKERS, STYLE
 from .work_precision import front
 
-FLOOR = 1e-5        # errors below are drawn here
+FLOOR = 1e-9        # errors below are drawn here
+BESIDE = ((5, 5), (5, -12), (-20, -12), (-20, 5))      # where labels stand, line after line [points]
 KNOB_NAMES = {"surface_spacing": "surface spacing / cell width", "safety": "time step / stable step",
               "tolerance": "tolerance of the contact solver"}
 
@@ -61,8 +62,9 @@ def _knobs(measured, sweeps, base, path):
     axes[1].set(xlabel="CPU time of a packing [s]", ylabel="difference of the stress [-]")
     for axis, errors, error in ((axes[0], measured.grain(base), _force), (axes[1], measured.packing(base), _stress)):
         axis.set(xscale="log", yscale="log")
-        axis.plot(errors["cpu_s"], max(error(errors)[0], FLOOR), "*", markersize=13, color="0.25", label="1, 0.8 and 0.001",
-                  zorder=3)
+        if errors:
+            axis.plot(errors["cpu_s"], max(error(errors)[0], FLOOR), "*", markersize=13, color="0.25", zorder=3,
+                      label="1, 0.8 and 0.001")
     _one_legend(figure, axes)
     _write(figure, path)
 
@@ -93,8 +95,10 @@ def _presets(candidates, table, path):
         axis.annotate(f"'{name}'", (1, error), (-3, 3), xycoords=("axes fraction", "data"), textcoords="offset points",
                       ha="right", color=COLOURS[1], fontsize=10)
     axis.set(xscale="log", yscale="log", xlabel="CPU time of a packing [s]", ylabel="largest error in stress [-]")
-    axis.margins(x=0.15)
+    axis.margins(x=0.1)
+    _whole_decades(axis)
     axis.legend(loc="lower left")
+    figure.tight_layout()
     _write(figure, path)
 
 
@@ -131,7 +135,7 @@ def _line(axis, name, points, index):
     for (label, *_, spread), cost, error in zip(points, costs, errors):
         if spread > 0:
             axis.plot([cost, cost], [max(error - spread, error / 5), error + spread], color=colour, linewidth=1)
-        axis.annotate(label, (cost, error), (5, 5), textcoords="offset points", fontsize=8, color=colour)
+        axis.annotate(label, (cost, error), BESIDE[index % len(BESIDE)], textcoords="offset points", fontsize=8, color=colour)
 
 
 def _one_legend(figure, axes):
