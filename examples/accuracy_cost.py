@@ -166,6 +166,7 @@ def main():
                              "source tree.")
     opt.use_threads(options.threads)
     study = Study("accuracy_cost", options, COLUMNS)
+    study.memory.setdefault("commit", commit())
     study.compute(all_jobs(options), options.at_once)
     return conclude(study, options)
 
@@ -186,7 +187,7 @@ def table_of_presets(study, options, measured):
                 **{name: knobs[name] for name in presets.CHOSEN}, "error": error, "packing_cpu_s": packing["cpu_s"],
                 "packing_stress_bias": bias, "packing_stress_spread": spread}))
     kept = [chosen for _, _, chosen in work_precision.front(candidates)]
-    return {"date": datetime.date.today().isoformat(), "commit": commit(),
+    return {"date": datetime.date.today().isoformat(), "commit": study.memory["commit"],
             "command": f"yade -n -x examples/accuracy_cost.py --grains {options.grains} --seeds {options.seeds} "
                        f"--orientations {options.orientations}" + (" --quick" if options.quick else ""),
             "error": f"{MARGIN:g} times the largest relative error of the force between plates at 5 to 40 % squeeze against "
