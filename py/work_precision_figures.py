@@ -3,6 +3,7 @@
 import math
 
 import matplotlib.pyplot as plt
+from matplotlib.ticker import NullFormatter
 
 from .figures import COLOURS, MARKERS, STYLE
 from .work_precision import front
@@ -89,7 +90,8 @@ def _presets(candidates, table, path):
               color=COLOURS[0], markersize=9, markerfacecolor="none", markeredgewidth=1.8, label="Pareto front")
     for chosen in best:
         axis.annotate(f"{chosen['points']} points, {chosen['surface_spacing']:g}, {chosen['tolerance']:g}",
-                      (chosen["packing_cpu_s"], chosen["error"]), (7, 5), textcoords="offset points", fontsize=8.5)
+                      (chosen["packing_cpu_s"], chosen["error"]), (-8, -10), ha="right", textcoords="offset points",
+                      fontsize=8.5)
     for name, error in table["names"].items():
         axis.axhline(error, color=COLOURS[1], linewidth=1, linestyle="--")
         axis.annotate(f"'{name}'", (1, error), (-3, 3), xycoords=("axes fraction", "data"), textcoords="offset points",
@@ -150,7 +152,9 @@ def _whole_decades(axis):
     """Limits at powers of ten, so that both axes have numbers."""
     for low_and_high, limit in ((axis.get_xlim(), axis.set_xlim), (axis.get_ylim(), axis.set_ylim)):
         low, high = (math.log10(value) for value in low_and_high)
-        limit(10 ** math.floor(low + 0.05), 10 ** math.ceil(high - 0.05))
+        limit(10 ** math.floor(low), 10 ** math.ceil(high))
+    for direction in (axis.xaxis, axis.yaxis):
+        direction.set_minor_formatter(NullFormatter())
 
 
 def _write(figure, path):
