@@ -51,7 +51,7 @@ SWEEPS = {"surface_spacing": (0.5, 0.7, 1.4), "safety": (0.2, 0.5, 0.9), "tolera
 TOGETHER = {"points": (60, 124, 276, 556), "surface_spacing": (0.7, 1.0), "safety": (0.8,), "tolerance": (1e-2, 1e-3)}
 MANY = (1100, 2200)
 FINEST = {"points": 1100, "tolerance": 1e-4}
-MARGIN = 1.4    # largest error of orientations that were not tried, over that of those that were
+MARGIN = 1.5    # largest error of orientations that were not tried, over that of those that were
 PRESETS = {"draft": 0.1, "standard": 0.03, "fine": 0.01}
 QUICK = {"grains": 12, "seeds": 2, "orientations": 1}
 
