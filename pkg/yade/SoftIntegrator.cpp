@@ -140,16 +140,16 @@ void SoftIntegrator::finish(int grain, double dt)
 bool SoftIntegrator::knowsAllBodies()
 {
     if (!assembly_) return false;
-    size_t known = 0;
+    size_t seen = 0;
     for (const auto& body : *scene->bodies) {
-        if (!softStateOf(*body)) continue;
-        if (known == soft_.bodies.size() || soft_.bodies[known] != body || soft_.states[known] != body->state.get()
-            || soft_.states[known]->outdated(*body))
-            return false;
-        fresh_ |= soft_.states[known]->justPlaced; // moved by hand
-        ++known;
+        if (seen == known_.size() || known_[seen].first != body || known_[seen].second != body->state.get()) return false;
+        ++seen;
+        const int grain = soft_.of(body->id);
+        if (grain < 0) continue;
+        if (soft_.states[grain]->outdated(*body)) return false;
+        fresh_ |= soft_.states[grain]->justPlaced; // moved by hand
     }
-    return known == soft_.bodies.size();
+    return seen == known_.size();
 }
 
 /// Takes in the soft bodies of the scene; rebuilds the assembly when they are others than in the last step.
@@ -159,8 +159,11 @@ void SoftIntegrator::adopt()
     requireSoftEngines(*scene);
     assembly_.reset();
     soft_ = {};
-    for (const auto& body : *scene->bodies)
+    known_.clear();
+    for (const auto& body : *scene->bodies) {
+        known_.push_back({ body, body->state.get() });
         if (softStateOf(*body)) takeIn(body);
+    }
     if (soft_.states.empty()) return;
     for (const auto& body : *scene->bodies) {
         const std::string kind = body->shape ? body->shape->getClassName() : "";

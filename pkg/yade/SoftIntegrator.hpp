@@ -98,6 +98,7 @@ private:
 
     mutable std::recursive_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask
     SoftBodies soft_;
+    std::vector<std::pair<shared_ptr<Body>, const State*>> known_; ///< all bodies of the scene when it was last looked at
     SoftLoads loads_ { soft_ };
     SoftPairs pairs_ { soft_ };
     std::unique_ptr<softgrain::Assembly<2>> assembly_;

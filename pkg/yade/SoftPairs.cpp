@@ -131,13 +131,10 @@ void SoftPairs::deliver(Scene& scene)
             point.force = contact.impulse / scene.dt;
             if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
             auto& body = *problem.bodies[contact.body];
-            for (int d = 0; d < 2; ++d) {
-                body.impulse[2 * contact.point + d] += contact.impulse[d];
-                if (contact.other >= 0)
-                    for (int k = 0; k < softgrain::face_vertices<2>; ++k)
-                        problem.bodies[contact.other]->impulse[2 * contact.vertex[k] + d]
-                            -= contact.weight[k] * contact.impulse[d];
-            }
+            body.strike(contact.point, contact.impulse);
+            if (contact.other >= 0)
+                for (int k = 0; k < softgrain::face_vertices<2>; ++k)
+                    problem.bodies[contact.other]->strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
             // on body id2
             const bool onSecond = contact.body == pair.body2;
             const softgrain::Vec<2> force = onSecond ? point.force : softgrain::Vec<2>(-point.force);

@@ -150,8 +150,8 @@ private:
     {
         for (int p = 0; p < grain.surface.count; ++p) {
             const BoundaryPoint<2>& point = mesh_.surface[p];
-            const Vec<2> impulse = dt_ * case_.radius * point.weight * solution_.traction(case_.radius * point.position, t);
-            std::copy(impulse.data(), impulse.data() + 2, &grain.surface.impulse[2 * size_t(p)]);
+            grain.surface.strike(p,
+                                 dt_ * case_.radius * point.weight * solution_.traction(case_.radius * point.position, t));
         }
     }
 

@@ -15,6 +15,7 @@ template <int Dim> struct Surface {
     std::vector<double> velocity;                            ///< [point][Dim] [m/s]; the contact solver works on it
     std::vector<double> velocity_before;                     ///< [point][Dim] [m/s], at the start of the step
     std::vector<double> impulse;                             ///< [point][Dim] [N s], what contact gave in this step
+    bool struck = false;                                     ///< by impulses in this step; else they are zero
     std::vector<char> corner;                                ///< [point], see BoundaryPoint
     Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
     double speed = 0;                                        ///< largest speed of a point [m/s]
@@ -32,6 +33,12 @@ template <int Dim> struct Surface {
     }
     Eigen::Map<const Vec<Dim>> x(int point) const { return Eigen::Map<const Vec<Dim>>(&position[size_t(Dim) * point]); }
     Eigen::Map<Vec<Dim>> v(int point) { return Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * point]); }
+
+    void strike(int point, const Vec<Dim>& by)
+    {
+        Eigen::Map<Vec<Dim>>(&impulse[size_t(Dim) * point]) += by;
+        struck = true;
+    }
 
     /// Bounding box of the points as they are.
     void bound()

@@ -12,13 +12,13 @@ namespace {
     constexpr int strip_bodies = 60;
     constexpr int most_strips = 32;
 
-    /// Strip of each body along the longer side of the scene.
-    template <int Dim> std::vector<int> strips_of(const std::vector<Surface<Dim>*>& bodies)
+    /// Strip of each body along the longer side of the scene; null: a body without contacts.
+    template <int Dim> std::vector<int> strips_of(const std::vector<const Surface<Dim>*>& bodies)
     {
         Vec<Dim> lo = Vec<Dim>::Constant(1e300), hi = -lo;
         int soft = 0;
         for (const Surface<Dim>* body : bodies) {
-            if (body->mobility == 0) continue;
+            if (!body || body->mobility == 0) continue;
             ++soft;
             lo = lo.cwiseMin(body->min);
             hi = hi.cwiseMax(body->max);
@@ -27,10 +27,11 @@ namespace {
         int axis = 0;
         (hi - lo).maxCoeff(&axis);
         const double length = std::max(hi[axis] - lo[axis], 1e-300);
-        std::vector<int> strips;
-        for (const Surface<Dim>* body : bodies) {
-            const double middle = ((body->min[axis] + body->max[axis]) / 2 - lo[axis]) / length;
-            strips.push_back(std::clamp(int(middle * count), 0, count - 1));
+        std::vector<int> strips(bodies.size(), 0);
+        for (size_t b = 0; b < bodies.size(); ++b) {
+            if (!bodies[b]) continue;
+            const double middle = ((bodies[b]->min[axis] + bodies[b]->max[axis]) / 2 - lo[axis]) / length;
+            strips[b] = std::clamp(int(middle * count), 0, count - 1);
         }
         return strips;
     }
@@ -57,11 +58,11 @@ public:
     void begin(ContactProblem<Dim>& problem)
     {
         problem_ = &problem;
-        bodies_.clear();
+        bodies_.assign(problem.bodies.size(), {});
         velocity_.clear();
-        for (const Surface<Dim>* body : problem.bodies) {
-            bodies_.push_back({ int(velocity_.size()) / Dim, body->mobility, body->response });
-            velocity_.insert(velocity_.end(), body->velocity.begin(), body->velocity.end());
+        for (const auto& contact : problem.contacts) {
+            take(contact.body);
+            if (contact.other >= 0) take(contact.other);
         }
         divide();
     }
@@ -116,6 +117,7 @@ public:
                 local.contact->inertia = local.inertia;
             }
         for (size_t b = 0; b < bodies_.size(); ++b) {
+            if (bodies_[b].first < 0) continue;
             const double* from = velocity_.data() + Dim * bodies_[b].first;
             std::copy(from, from + problem_->bodies[b]->velocity.size(), problem_->bodies[b]->velocity.begin());
         }
@@ -123,9 +125,9 @@ public:
 
 private:
     struct Body {
-        int first; ///< of its points among all
-        double mobility;
-        const SurfaceOperator<Dim>* response;
+        int first = -1; ///< of its points among all; none: no contact is on it
+        double mobility = 0;
+        const SurfaceOperator<Dim>* response = nullptr;
     };
     /// The contacts of two bodies.
     struct Block {
@@ -149,10 +151,22 @@ private:
         }
     };
 
+    void take(int index)
+    {
+        Body& body = bodies_[index];
+        if (body.first >= 0) return;
+        const Surface<Dim>& surface = *problem_->bodies[index];
+        body = { int(velocity_.size()) / Dim, surface.mobility, surface.response };
+        velocity_.insert(velocity_.end(), surface.velocity.begin(), surface.velocity.end());
+    }
+
     /// Sorts the contacts into groups, and in each by the two bodies they belong to: neighbours in the problem.
     void divide()
     {
-        const std::vector<int> strip = strips_of(problem_->bodies);
+        std::vector<const Surface<Dim>*> touched(problem_->bodies.begin(), problem_->bodies.end());
+        for (size_t b = 0; b < touched.size(); ++b)
+            if (bodies_[b].first < 0) touched[b] = nullptr;
+        const std::vector<int> strip = strips_of(touched);
         const int strips = 1 + *std::max_element(strip.begin(), strip.end());
         phase_ = { 0, strips, strips + strips / 2, 2 * strips - 1, 2 * strips };
         groups_.resize(phase_[phases]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace softgrain {
 namespace {
@@ -81,6 +82,7 @@ namespace {
             speed2 = std::max(speed2, surface.v(p).squaredNorm());
         }
         std::fill(surface.impulse.begin(), surface.impulse.end(), 0);
+        surface.struck = false;
         surface.speed = std::sqrt(speed2);
         surface.travel += dt * surface.speed;
         if (leaps(grain, dt)) return;
@@ -203,17 +205,21 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
         double* values = batch.surface();
-        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
-            Grain<Dim>& grain = *members_[b][lane];
-            if (before) before(grain);
-            const double unit = grain.surface.mobility / grain.radius;
-            for (size_t i = 0; i < grain.surface.impulse.size(); ++i) {
-                values[i * lanes + lane] = unit * grain.surface.impulse[i];
-                grain.surface.impulse[i] = 0;
-            }
+        bool struck = false;
+        for (Grain<Dim>* grain : members_[b]) {
+            if (before) before(*grain);
+            struck |= std::exchange(grain->surface.struck, false);
         }
         const auto& kernels = motion_kernels<Dim>();
-        kernels.push[batch.wide()](batch.data());
+        if (struck) {
+            for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+                Grain<Dim>& grain = *members_[b][lane];
+                const double unit = grain.surface.mobility / grain.radius;
+                for (size_t i = 0; i < grain.surface.impulse.size(); ++i)
+                    values[i * lanes + lane] = unit * std::exchange(grain.surface.impulse[i], 0);
+            }
+            kernels.push[batch.wide()](batch.data());
+        }
         kernels.drift[batch.wide()](batch.data(), dt);
         kernels.observe[batch.wide()](batch.data(), batch.sums.data());
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {

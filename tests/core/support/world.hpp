@@ -164,16 +164,11 @@ private:
             const Contact<2>& contact = problem.contacts[c];
             owners_[c].first->force = contact.impulse / dt;
             if (owners_[c].second >= 0) plane_force[owners_[c].second] -= contact.impulse / dt;
-            give(grains[contact.body].surface, contact.point, contact.impulse);
+            grains[contact.body].surface.strike(contact.point, contact.impulse);
             if (contact.other < 0) continue;
             for (int k = 0; k < face_vertices<2>; ++k)
-                give(grains[contact.other].surface, contact.vertex[k], -contact.weight[k] * contact.impulse);
+                grains[contact.other].surface.strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
         }
-    }
-    static void give(Surface<2>& surface, int point, const Vec<2>& impulse)
-    {
-        for (int d = 0; d < 2; ++d)
-            surface.impulse[2 * point + d] += impulse[d];
     }
 };
 
