@@ -33,13 +33,13 @@ QUICK = {"grains": 40, "points": 60, "until": 0.9}
 
 def read_options():
     parser = opt.Parser("compaction", "Uniaxial compaction of a packing of soft discs.")
-    scene = opt.add_packing(parser, until=0.98)
-    scene.add_argument("--points", type=opt.count, default=276, metavar="N", help="material points a disc")
+    opt.add_packing(parser, until=0.98)
     opt.add_material(parser)
     opt.add_method(parser)
     parser.add_management()
     options = parser.read()
     options.set_quick(QUICK)
+    opt.choose_by_accuracy(options)
     opt.refuse_what_is_not_there(options)
     if options.until <= options.solid_fraction:
         raise InputError(f"--until {options.until:g} is not above --solid-fraction {options.solid_fraction:g}: "
@@ -53,10 +53,11 @@ def make_scene(options):
     wall_material = O.materials.append(FrictMat(frictionAngle=math.atan(options.wall_friction), label="walls"))
     width = builders.widthOfSquareCloud(options.grains, options.diameters, options.solid_fraction)
     grains, height = softCloud(width, options.grains, options.diameters, options.solid_fraction, grain_material,
-                               options.points, options.seed, formulation=options.formulation)
+                               seed=options.seed, **opt.grain_settings(options))
     O.bodies.append(grains)
     _, _, bottom, top = O.bodies.append(softBox(width, height, wall_material))
-    O.engines = softEngines(dt=options.dt, friction=options.friction, wallFriction=options.wall_friction)
+    O.engines = softEngines(friction=options.friction, wallFriction=options.wall_friction,
+                            **opt.engine_settings(options))
     return {"width": width, "height": height, "bottom": bottom, "top": top}
 
 

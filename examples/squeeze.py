@@ -40,7 +40,6 @@ def read_options():
     parser = opt.Parser("squeeze", "One soft disc squeezed between rigid walls.")
     scene = parser.add_argument_group("the scene")
     scene.add_argument("--radius", type=opt.positive, default=1e-3, metavar="R", help="of the disc [m]")
-    scene.add_argument("--points", type=opt.count, default=276, metavar="N", help="material points")
     scene.add_argument("--walls", type=int, choices=(2, 4), default=2, help="two plates, or four walls closing equally")
     scene.add_argument("--squeeze", type=opt.positive, default=0.4, metavar="S",
                        help="at the end; four walls: 0.1 unless given, since the disc fills the square at 0.114")
@@ -56,6 +55,7 @@ def read_options():
     parser.add_management()
     options = parser.read()
     options.set_quick(QUICK)
+    opt.choose_by_accuracy(options)
     if options.walls == 4 and "squeeze" not in options.given:
         options.squeeze = 0.1
     opt.refuse_what_is_not_there(options)
@@ -68,8 +68,7 @@ def make_scene(options):
     """The disc about the origin and its walls: dict of (body id, axis) by name."""
     soft = O.materials.append(opt.make_material(options))
     rigid = O.materials.append(FrictMat(frictionAngle=math.atan(options.friction), label="walls"))
-    O.bodies.append(softDisc((0, 0), options.radius, soft, options.points, options.angle,
-                             formulation=options.formulation))
+    O.bodies.append(softDisc((0, 0), options.radius, soft, angle=options.angle, **opt.grain_settings(options)))
     walls = {}
     for name, axis, side in [("bottom", 1, -1), ("top", 1, 1), ("left", 0, -1), ("right", 0, 1)][:options.walls]:
         body = yade_wall(side * options.radius, axis=axis, sense=-side, material=rigid)
@@ -77,7 +76,7 @@ def make_scene(options):
         velocity[axis] = -side * options.speed / 2
         body.state.vel = velocity
         walls[name] = (O.bodies.append(body), axis)
-    O.engines = softEngines(dt=options.dt, wallFriction=options.friction)
+    O.engines = softEngines(wallFriction=options.friction, **opt.engine_settings(options))
     return walls
 
 
@@ -93,7 +92,7 @@ class Squeeze:
             run.first_step()
             WallForces.require_steps(2 * self.options.radius * OUTPUT / self.options.speed, self.options.speed)
             run.begin()
-            self.memory.update(window=0, middle=None, steps=1)
+            self.memory.update(window=0, middle=None, steps=1, deepest=0.0)
         self.forces = WallForces(walls, run.interrupted)
         if run.resumed:
             self.forces.restore(self.memory["forces"])
@@ -146,7 +145,8 @@ class Squeeze:
         memory, forces = self.memory, self.forces
         force = float(numpy.mean([abs(forces.mean(name)) for name in self.walls]))
         self.run.table.append({**memory["middle"], "force_per_thickness_N_m": force, "cpu_s": self.run.cpu_seconds()})
-        memory.update(window=memory["window"] + 1, middle=None, steps=memory["steps"] + forces.steps)
+        memory.update(window=memory["window"] + 1, middle=None, steps=memory["steps"] + forces.steps,
+                      deepest=max(memory["deepest"], self.soft.maxPenetration()))
         forces.reset()
         memory["forces"] = forces.state()
 
@@ -193,6 +193,7 @@ def main():
     checks, compared = check(squeeze, table, options)
     result = summary.head(run)
     result.update(reference=compared, energy_missing_over_work=squeeze.balance(),
+                  deepest_penetration=squeeze.memory["deepest"],
                   cost=summary.costs(run, measures.pointTotal(), squeeze.memory["steps"], summary.stages()))
     return runs.conclude(run, result, checks)
 

@@ -8,9 +8,10 @@ import yade.wrapper as wrapper
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 
-from . import cloud
+from . import cloud, presets
 from .checks import InputError, in_plane, not_negative, number, position, positive, whole
 
+POINTS, SAFETY, TOLERANCE = 276, 0.8, 1e-3      # unless given or chosen by an accuracy
 LEAST_POINTS = 16
 MOST_DISCS = 1000000    # of a cloud
 TOUCHING = 1e-9         # distance below which a corner lies on another edge [extent of the polygon]
@@ -18,28 +19,31 @@ VERLET = 0.05       # distance that grains may move until the collider sorts aga
 SOFT_MATERIALS = "NeoHookeanMat or a MooneyRivlinMat"
 
 
-def softDisc(center, radius, material=-1, points=276, angle=0.0, color=None, velocity=(0, 0, 0), spin=0.0, **shape):
+def softDisc(center, radius, material=-1, points=None, angle=0.0, color=None, velocity=(0, 0, 0), spin=0.0, accuracy=None,
+             **shape):
     """Body of one soft disc.
 
     center    centre [m]
     radius    radius of the undeformed disc [m]
-    points    number of material points wished for (the grid decides the exact number)
+    points    number of material points wished for (the grid decides the exact number); None: POINTS, or by accuracy
     angle     rotation of the grid of material points about the centre [rad]
     velocity  initial velocity [m/s]; spin: initial angular velocity about z [rad/s]
+    accuracy  relative error in stress to expect, such as 0.01, or 'draft', 'standard', 'fine': chooses points and
+              surfaceSpacing, which may not be given too (presets.py says how; give it to softEngines as well)
     shape     further attributes of SoftGrain
     Raises InputError, one sentence, on a value that makes no sense.
     """
     center = position("softDisc: center", center)
     radius = positive(f"softDisc at {_shown(center)}: radius", radius, "m")
     return _body(f"softDisc at {_shown(center)}", center, dict(shape, radius=radius), material, points, angle, color,
-                 velocity, spin)
+                 velocity, spin, accuracy)
 
 
-def softPolygon(vertices, material=-1, points=276, color=None, velocity=(0, 0, 0), spin=0.0, **shape):
+def softPolygon(vertices, material=-1, points=None, color=None, velocity=(0, 0, 0), spin=0.0, accuracy=None, **shape):
     """Body of one soft polygon.
 
     vertices  corners in order, in world coordinates [m]; the edges must not cross; convex or not
-    The other arguments are those of softDisc.
+    The other arguments are those of softDisc. The errors behind `accuracy` were measured with discs.
     Raises InputError, one sentence, on a value that makes no sense.
     """
     try:
@@ -64,10 +68,10 @@ def softPolygon(vertices, material=-1, points=276, color=None, velocity=(0, 0, 0
     center = (centroid[0], centroid[1], corners[0][2])
     relative = [Vector3(x - centroid[0], y - centroid[1], 0) for x, y in plane]
     return _body(f"softPolygon at {_shown(center)}", center, dict(shape, vertices=relative), material, points, 0.0,
-                 color, velocity, spin)
+                 color, velocity, spin, accuracy)
 
 
-def softCloud(width, count, diameters=(1.4e-3, 2.4e-3), solidFraction=0.65, material=-1, points=276, seed=1, **shape):
+def softCloud(width, count, diameters=(1.4e-3, 2.4e-3), solidFraction=0.65, material=-1, points=None, seed=1, **shape):
     """Loose cloud of soft discs that do not touch, in the box [0, width] x [0, height].
 
     width          of the box [m]
@@ -75,6 +79,7 @@ def softCloud(width, count, diameters=(1.4e-3, 2.4e-3), solidFraction=0.65, mate
     diameters      smallest and largest diameter [m]; those of the grains are uniform between them
     solidFraction  area of all grains / (width height); up to about 0.75
     seed           whole number: sizes, places and grid orientations follow from it
+    shape          accuracy, and further attributes of SoftGrain, as of softDisc
     Returns the list of bodies and the height of the box [m].
     Raises InputError, one sentence, on a value that makes no sense or when there is no room.
     """
@@ -125,19 +130,25 @@ def softBox(width, height, material=-1):
             wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
 
 
-def softEngines(gravity=(0, 0, 0), dt=None, safety=0.8, tolerance=1e-3, maxSweeps=1000, verletDist=None,
-                friction=None, wallFriction=None, more=()):
+def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSweeps=1000, verletDist=None,
+                friction=None, wallFriction=None, more=(), accuracy=None):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
     gravity       [m/s²]
     dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper
-    safety        time step of the SoftTimeStepper [stable limit]
-    tolerance     of the contact solver [-]; maxSweeps: most sweeps of it in a step
+    safety        time step of the SoftTimeStepper [stable limit]; None: SAFETY, or by accuracy
+    tolerance     of the contact solver [-]; None: TOLERANCE, or by accuracy; maxSweeps: most sweeps of it in a step
     verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain
     friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
     wallFriction  the same between grains and other bodies
     more          engines to append (recorders, PyRunners)
+    accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt
     """
+    given = {"dt": dt, "safety": safety, "tolerance": tolerance}
+    presets.refuse_both("softEngines", accuracy, [name for name, value in given.items() if value is not None])
+    preset = presets.settings("softEngines", accuracy) if accuracy is not None else {}
+    safety = preset.get("safety", SAFETY) if safety is None else safety
+    tolerance = preset.get("tolerance", TOLERANCE) if tolerance is None else tolerance
     gravity = in_plane("softEngines: gravity", gravity, "m/s²")
     tolerance = positive("softEngines: tolerance", tolerance)
     safety = positive("softEngines: safety", safety)
@@ -181,7 +192,13 @@ def _friction(name, coefficient):
     return {"frictAngle": wrapper.MatchMaker(algo="val", val=angle)}
 
 
-def _body(name, center, shape, material, points, angle, color, velocity, spin):
+def _body(name, center, shape, material, points, angle, color, velocity, spin, accuracy):
+    if accuracy is not None:
+        presets.refuse_both(name, accuracy, ["points"] * (points is not None) + ["surfaceSpacing"] * ("surfaceSpacing" in shape))
+        preset = presets.settings(name, accuracy)
+        points, shape = preset["points"], dict(shape, surfaceSpacing=preset["surface_spacing"])
+    elif points is None:
+        points = POINTS
     points = whole(f"{name}: points", points, LEAST_POINTS)
     angle, spin = number(f"{name}: angle", angle, "rad"), number(f"{name}: spin", spin, "rad/s")
     velocity = in_plane(f"{name}: velocity", velocity, "m/s")

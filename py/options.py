@@ -8,10 +8,11 @@ import sys
 import yade.wrapper as wrapper
 from yade import O
 
+from . import presets
 from .checks import InputError
 
 # Options that say how a run is managed, not what is computed: they may differ when a run is resumed.
-MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds"}
+MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds", "at_once", "figures"}
 
 MOST_THREADS = 16    # a core
 
@@ -104,6 +105,13 @@ def threads(text):
     return value
 
 
+def accuracy(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 for _type, _word in ((positive, "number above zero"), (not_negative, "number"), (finite, "number"),
                      (count, "whole number"), (threads, "whole number"), (seed, "whole number")):
     _type.__name__ = _word       # argparse says: invalid <name> value
@@ -122,6 +130,7 @@ def add_packing(parser, until):
     group.add_argument("--until", type=positive, default=until, metavar="PHI", help="solid fraction at the end")
     group.add_argument("--seed", type=seed, default=1, metavar="N", help="of sizes, places and grid orientations")
     group.add_argument("--quick", action="store_true", help="a small, fast packing")
+    group.add_argument("--no-figures", action="store_false", dest="figures", help="leave out the figures")
     return group
 
 
@@ -152,6 +161,39 @@ def add_method(parser):
     group.add_argument("--formulation", choices=("total", "updated"), default="total",
                        help="Lagrangian in the undeformed grain, or updated: state on the points, grid laid anew each step")
     group.add_argument("--dt", type=positive, default=None, metavar="S", help="time step; None: chosen automatically")
+    group.add_argument("--safety", type=positive, default=0.8, metavar="SHARE",
+                       help="time step chosen automatically, over the estimated stable one")
+    group.add_argument("--points", type=count, default=276, metavar="N", help="material points of a disc")
+    group.add_argument("--surface-spacing", type=positive, default=1.0, metavar="H",
+                       help="largest distance of surface points, over the width of a cell")
+    group.add_argument("--tolerance", type=positive, default=1e-3, metavar="TAU",
+                       help="the contact solver stops when a sweep changes the impulses by less, relative")
+    group.add_argument("--accuracy", type=accuracy, default=None, metavar="ERROR",
+                       help="relative error in stress to expect, such as 0.01, or draft, standard, fine: chooses --points, "
+                            "--surface-spacing, --safety and --tolerance")
+    group.add_argument("--locking-cure", choices=("on", "off"), default="on",
+                       help="the points of a cell share one volume change; off is for comparisons")
+
+
+def choose_by_accuracy(options):
+    """With --accuracy, takes the settings that deliver it. InputError when one of them is given too."""
+    if options.accuracy is not None:
+        given = [f"--{name.replace('_', '-')}" for name in ("dt", *presets.CHOSEN) if name in options.given]
+        presets.refuse_both("--accuracy", options.accuracy, given)
+        chosen = presets.settings("--accuracy", options.accuracy)
+        for name in presets.CHOSEN:
+            setattr(options, name, chosen[name])
+
+
+def grain_settings(options):
+    """What the options say of every grain: further arguments of softDisc and softCloud."""
+    return {"points": options.points, "surfaceSpacing": options.surface_spacing,
+            "meanDilatation": options.locking_cure == "on", "formulation": options.formulation}
+
+
+def engine_settings(options):
+    """What the options say of time step and solver: arguments of softEngines."""
+    return {"dt": options.dt, "safety": options.safety, "tolerance": options.tolerance}
 
 
 def refuse_what_is_not_there(options):

@@ -23,7 +23,7 @@ class Table:
         unknown = set(row) - set(self.columns)
         if unknown:
             raise KeyError(f"not columns of the table: {', '.join(sorted(unknown))}")
-        self._file.write(",".join(_shown(row.get(column, math.nan)) for column in self.columns) + "\n")
+        self._file.write(",".join(shown(row.get(column, math.nan)) for column in self.columns) + "\n")
         self._file.flush()
         self.rows += 1
 
@@ -55,6 +55,20 @@ def read_table(path):
     return {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)}
 
 
+def read_rows(path):
+    """The rows of a csv file as dicts; what is a number is a float."""
+    def value(word):
+        try:
+            return float(word)
+        except ValueError:
+            return word
+
+    with open(path, encoding="ascii") as file:
+        lines = file.read().splitlines()
+    columns = lines[0].split(",")
+    return [dict(zip(columns, map(value, line.split(",")))) for line in lines[1:]]
+
+
 def replace_text(path, text):
     """Writes a file so that it is, at every moment, whole: the old one or the new one."""
     unfinished = f"{path}.part"
@@ -75,8 +89,9 @@ def read_json(path):
         return json.load(file)
 
 
-def _shown(value):
-    return str(value) if isinstance(value, int) else f"{value:.10g}"
+def shown(value):
+    """A value as it stands in a csv file."""
+    return str(value) if isinstance(value, (int, str)) else f"{value:.10g}"
 
 
 def _finite(content):

@@ -92,8 +92,7 @@ class Run:
     def checkpoint(self):
         """Saves scene, memory and number of rows, in an order that leaves a whole checkpoint at every moment."""
         began = time.monotonic()
-        scene = f"checkpoint-{O.iter:09d}.yade"
-        O.save(self.path(scene), quiet=True)
+        scene = self._save_scene()
         write_json(self.path("checkpoint.json"), {
             "run": self.name, "scene": scene, "rows": self.table.rows, "versions": _versions(),
             "parameters": self.parameters(),
@@ -104,6 +103,19 @@ class Run:
                 os.remove(old)
         self._checkpoint_at = time.monotonic()
         self._checkpoint_cost = self._checkpoint_at - began
+
+    def _save_scene(self):
+        """Saves what the computation is at; the name of the file, for the checkpoint."""
+        scene = f"checkpoint-{O.iter:09d}.yade"
+        O.save(self.path(scene), quiet=True)
+        return scene
+
+    def _load_scene(self, stored):
+        try:
+            O.load(self.path(stored["scene"]), quiet=True)
+        except (RuntimeError, MemoryError) as error:    # MemoryError: boost takes what it reads for a size
+            raise InputError(f"the checkpoint {self.path(stored['scene'])} cannot be loaded "
+                             f"({str(error) or 'no saved scene'}): start anew with --force.") from None
 
     def checkpoint_if_due(self):
         interval = max(self.options.checkpoint_seconds, self._checkpoint_cost / MOST_CHECKPOINT_SHARE)
@@ -186,12 +198,8 @@ class Run:
             setattr(self.options, key, value)
         if "until" not in self.options.given and stored["until"] is not None:
             self.options.until = stored["until"]
-        try:
-            O.load(self.path(stored["scene"]), quiet=True)
-            self.table = Table(self.path(f"{self.name}.csv"), self._columns, stored["rows"])
-        except (RuntimeError, MemoryError) as error:    # MemoryError: boost takes what it reads for a size
-            raise InputError(f"the checkpoint {self.path(stored['scene'])} cannot be loaded "
-                             f"({str(error) or 'no saved scene'}): start anew with --force.") from None
+        self._load_scene(stored)
+        self.table = Table(self.path(f"{self.name}.csv"), self._columns, stored["rows"])
         self.memory, self.resumed = stored["memory"], True
         self._cpu_before, self._wall_before = stored["cpu_s"], stored["wall_s"]
         if os.path.exists(self.path("summary.json")):
@@ -236,12 +244,11 @@ def _say(name, sentence, code):
 
 def conclude(run, result, checks):
     """Writes figures and summary, prints the checks, a list of (what, holds); the exit code."""
-    from . import figures
-
     failed = [what for what, holds in checks if not holds]
     result["checks"] = [{"check": what, "holds": bool(holds)} for what, holds in checks]
     run.finish(result)
-    if "strain" in run.table.columns:
+    if "strain" in run.table.columns and run.options.figures:
+        from . import figures
         figures.draw([run.folder], run.folder)
     run.progress.end(f"{run.name}: {run.table.rows} rows in {run.options.out}")
     for what, holds in checks:

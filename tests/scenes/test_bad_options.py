@@ -48,6 +48,15 @@ BAD = [
     ("squeeze", ["--points", "60", "--speed", "50"], ["--speed", "50", "steps"]),
     ("squeeze", ["--points", "1000000"], ["points", "1000000", "100000"]),
     ("rigid_compaction", ["--grains", "10", "--dt", "1"], ["--dt", "1", "stable"]),
+    ("squeeze", ["--accuracy", "good"], ["'good'", "'draft'"]),
+    ("squeeze", ["--accuracy", "0.05", "--points", "60"], ["--points", "accuracy"]),
+    ("compaction", ["--accuracy", "1e-9"], ["1e-09", "finest"]),
+    ("compaction", ["--surface-spacing", "9"], ["surfaceSpacing", "9", "4"]),
+    ("compaction", ["--safety", "1"], ["safety", "1"]),
+    ("compaction", ["--tolerance", "0"], ["--tolerance", "0"]),
+    ("compaction", ["--locking-cure", "maybe"], ["--locking-cure", "maybe"]),
+    ("accuracy_cost", ["--seeds", "0"], ["--seeds", "0"]),
+    ("accuracy_cost", ["--at-once", "none"], ["--at-once", "none"]),
     ("squeeze", ["--walls", "3"], ["--walls", "3"]),
     ("squeeze", ["--radius", "0"], ["--radius", "0"]),
     ("squeeze", ["--squeeze", "0.95"], ["--squeeze", "0.95"]),
@@ -89,7 +98,7 @@ def bad_options_are_refused(checks):
 
 
 def help_is_there(checks):
-    for example in ("compaction", "squeeze", "rigid_compaction"):
+    for example in ("compaction", "squeeze", "rigid_compaction", "accuracy_cost"):
         code, out, _ = run_inside(example, ["--help"])
         checks.that(f"{example} --help", code == 0 and "--resume" in out and "--out" in out, out[:300])
 

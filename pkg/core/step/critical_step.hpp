@@ -23,7 +23,8 @@ template <int Dim> double critical_step(const Grain<Dim>& grain, double unit_ste
 template <int Dim> class SmallestCriticalStep {
 public:
     /// Of the grains as they are deformed, by their own stiffness, to 1 % [s]; no more than 1.25 times the lower bound, since
-    /// where a grain is squeezed most its stiffness grows fastest. Their smallest stretches have to be known.
+    /// where a grain is squeezed most its stiffness grows fastest. Updated-Lagrangian grains keep the lower bound. The smallest
+    /// stretches have to be known.
     double operator()(const std::vector<Grain<Dim>*>& grains, int threads);
 
 private:

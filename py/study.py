@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Many runs of other examples, some at a time, each in a process of its own; a row of one csv for each. A study that was
+stopped goes on with the rows that are missing."""
+import dataclasses
+import glob
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import typing
+
+from .records import read_rows, shown
+from .runs import Run
+
+POLL_SECONDS = 0.05
+
+
+@dataclasses.dataclass
+class Job:
+    """One run of an example and its row.
+
+    key        dict: the columns that tell this row from all others
+    example    path of the script
+    arguments  its options, without --out
+    read       function from the folder of the finished run to the other columns, a dict
+    cost       expected CPU time [s], which orders the jobs and tells the time to go
+    """
+    key: dict
+    example: str
+    arguments: list
+    read: typing.Callable
+    cost: float
+
+
+class Study(Run):
+    """A run whose rows are runs. `columns` begins with those of the jobs' keys, and ends with `status`: done, or why a
+    run has no result."""
+
+    def __init__(self, name, options, columns):
+        super().__init__(name, options, columns)
+        if not self.resumed:
+            self.begin()
+            self.checkpoint()
+        for left in glob.glob(self.path("run-*")):
+            shutil.rmtree(left)
+
+    def compute(self, jobs, at_once):
+        """Runs the jobs that have no row yet, the dearest first."""
+        done = {self._name(row, jobs[0].key) for row in self.rows()}
+        waiting = sorted((job for job in jobs if self._name(job.key, job.key) not in done), key=lambda job: job.cost)
+        left, running = sum(job.cost for job in waiting), []
+        self._show(left, jobs)
+        try:
+            while waiting or running:
+                while waiting and len(running) < at_once:
+                    running.append(self._start(waiting.pop()))
+                for job, process, folder in list(running):
+                    if process.poll() is not None:
+                        running.remove((job, process, folder))
+                        self._record(job, process, folder)
+                        left -= job.cost
+                        self._show(left, jobs)
+                if self.interrupted():
+                    self.stop()
+                time.sleep(POLL_SECONDS)
+        finally:
+            for _, process, folder in running:
+                process.terminate()
+                process.wait()
+                shutil.rmtree(folder)
+
+    def _show(self, left, jobs):
+        share = 1 - left / sum(job.cost for job in jobs)
+        self.progress.show(max(share, 0.0), f"{self.table.rows} of {len(jobs)} runs")
+
+    def rows(self):
+        """All rows that are there: dicts, numbers as numbers."""
+        return read_rows(self.path(f"{self.name}.csv"))
+
+    def _start(self, job):
+        folder = tempfile.mkdtemp(prefix="run-", dir=self.folder)
+        with open("/proc/self/cmdline", "rb") as file:
+            yade = [os.fsdecode(word) for word in file.read().split(b"\0")[:2]]
+        command = [*yade, "-n", "-x", "-j1", "--", job.example, *map(str, job.arguments), "--out", folder]
+        with open(os.path.join(folder, "said.txt"), "w", encoding="utf-8") as said:
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+        return job, process, folder
+
+    def _record(self, job, process, folder):
+        """Exit code 1 may be a check that an example makes of its own result: the row judges it by the numbers."""
+        result = {"status": "done"}
+        if os.path.exists(os.path.join(folder, "summary.json")):
+            result.update(job.read(folder))
+        else:
+            with open(os.path.join(folder, "said.txt"), encoding="utf-8") as said:
+                lines = [line for line in said.read().splitlines() if line.startswith(os.path.basename(job.example))]
+            result["status"] = (lines[-1] if lines else f"exit code {process.returncode}").replace(",", ";")
+        self.table.append({**job.key, **result})
+        self.checkpoint()
+        shutil.rmtree(folder)
+
+    def _save_scene(self):
+        return None
+
+    def _load_scene(self, stored):
+        pass
+
+    @staticmethod
+    def _name(row, key):
+        return tuple(shown(row[column]) for column in key)

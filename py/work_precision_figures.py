@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Work-precision diagrams: error against CPU time, both logarithmic, a line for each method."""
+import math
+
+import matplotlib.pyplot as plt
+from matplotlib.ticker import NullFormatter
+
+from .figures import COLOURS, MARKERS, STYLE
+from .work_precision import front
+
+FLOOR = 1e-9        # errors below are drawn here
+BESIDE = ((5, 5), (5, -12), (-20, -12), (-20, 5))      # where labels stand, line after line [points]
+KNOB_NAMES = {"surface_spacing": "surface spacing / cell width", "safety": "time step / stable step",
+              "tolerance": "tolerance of the contact solver"}
+
+
+def draw(measured, methods, sweeps, base, candidates, table, path):
+    """Writes figure1.png to figure5.png. methods, sweeps: name -> (settings on one grain, settings in packings); base: the setting
+    that all sweeps share."""
+    with plt.rc_context({**STYLE, "figure.figsize": (7.2, 5.0), "savefig.dpi": 130,
+                         "figure.constrained_layout.use": False}):
+        _one_grain(measured, methods, path("figure1.png"))
+        _packings(measured, methods, path("figure2.png"))
+        _knobs(measured, sweeps, base, path("figure3.png"))
+        _balance(measured, methods, path("figure4.png"))
+        _presets(candidates, table, path("figure5.png"))
+
+
+def _one_grain(measured, methods, path):
+    figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
+    for axis, error, what in zip(axes, ("force", "area"), ("error of the force, rms", "error of the area lost, rms")):
+        lines = {name: [(f"{knobs['points']}", found["cpu_s"], found[error], 0.0)
+                        for knobs, found in _found(measured.grain, grain)] for name, (grain, _) in methods.items()}
+        _draw_lines(axis, lines)
+        axis.set(xlabel="CPU time of one grain [s]", ylabel=f"{what} [-]")
+    _one_legend(figure, axes)
+    _write(figure, path)
+
+
+def _packings(measured, methods, path):
+    figure, axes = plt.subplots(1, 3, figsize=(12.6, 4.9))
+    for axis, name, what in zip(axes, ("stress", "coordination", "volume"),
+                                ("difference of the stress [-]", "difference of Z [-]",
+                                 "difference of the volume change [-]")):
+        lines = {method: [(f"{knobs['points']}", found["cpu_s"], abs(found[name][0]), found[name][1])
+                          for knobs, found in _found(measured.packing, packing)]
+                 for method, (_, packing) in methods.items()}
+        _draw_lines(axis, lines)
+        axis.set(xlabel="CPU time of a packing [s]", ylabel=what)
+    _one_legend(figure, axes)
+    _write(figure, path)
+
+
+def _knobs(measured, sweeps, base, path):
+    figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
+    for index, (knob, (grain, packing)) in enumerate(sweeps.items()):
+        for axis, found, error in ((axes[0], _found(measured.grain, grain), _force),
+                                   (axes[1], _found(measured.packing, packing), _stress)):
+            points = [("" if knobs == base else f"{knobs[knob]:g}", errors["cpu_s"], *error(errors))
+                      for knobs, errors in found]
+            _line(axis, KNOB_NAMES[knob], points, index)
+    axes[0].set(xlabel="CPU time of one grain [s]", ylabel="error of the force, rms [-]")
+    axes[1].set(xlabel="CPU time of a packing [s]", ylabel="difference of the stress [-]")
+    for axis, errors, error in ((axes[0], measured.grain(base), _force), (axes[1], measured.packing(base), _stress)):
+        axis.set(xscale="log", yscale="log")
+        if errors:
+            axis.plot(errors["cpu_s"], max(error(errors)[0], FLOOR), "*", markersize=13, color="0.25", zorder=3,
+                      label="1, 0.8 and 0.001")
+    _one_legend(figure, axes)
+    _write(figure, path)
+
+
+def _balance(measured, methods, path):
+    figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
+    for axis, error, what in zip(axes, ("energy", "penetration"),
+                                 ("energy residual / external work [-]", "deepest penetration / radius [-]")):
+        lines = {name: [(f"{knobs['points']}", found["cpu_s"], found[error], 0.0)
+                        for knobs, found in _found(measured.packing, packing)] for name, (_, packing) in methods.items()}
+        _draw_lines(axis, lines)
+        axis.set(xlabel="CPU time of a packing [s]", ylabel=what)
+    _one_legend(figure, axes)
+    _write(figure, path)
+
+
+def _presets(candidates, table, path):
+    figure, axis = plt.subplots()
+    axis.plot([cost for cost, *_ in candidates], [error for _, error, _ in candidates], "o", color="0.6", label="settings")
+    best = table["settings"]
+    axis.plot([chosen["packing_cpu_s"] for chosen in best], [chosen["error"] for chosen in best], "-o",
+              color=COLOURS[0], markersize=9, markerfacecolor="none", markeredgewidth=1.8, label="Pareto front")
+    for chosen in best:
+        axis.annotate(f"{chosen['points']} points, {chosen['surface_spacing']:g}, {chosen['tolerance']:g}",
+                      (chosen["packing_cpu_s"], chosen["error"]), (-8, -10), ha="right", textcoords="offset points",
+                      fontsize=8.5)
+    for name, error in table["names"].items():
+        axis.axhline(error, color=COLOURS[1], linewidth=1, linestyle="--")
+        axis.annotate(f"'{name}'", (1, error), (-3, 3), xycoords=("axes fraction", "data"), textcoords="offset points",
+                      ha="right", color=COLOURS[1], fontsize=10)
+    axis.set(xscale="log", yscale="log", xlabel="CPU time of a packing [s]", ylabel="largest error in stress [-]")
+    axis.margins(x=0.1)
+    _whole_decades(axis)
+    axis.legend(loc="lower left")
+    figure.tight_layout()
+    _write(figure, path)
+
+
+def _force(errors):
+    return errors["force"], 0.0
+
+
+def _stress(errors):
+    mean, spread = errors["stress"]
+    return abs(mean), spread
+
+
+def _found(measure, settings):
+    """Those settings of which there are errors, with them."""
+    return [(knobs, errors) for knobs, errors in ((knobs, measure(knobs)) for knobs in settings) if errors]
+
+
+def _draw_lines(axis, lines):
+    """lines: name -> list of (label, CPU time, error, spread); rings mark the Pareto front of all, where errors count
+    with their spread."""
+    for index, (name, points) in enumerate(lines.items()):
+        _line(axis, name, points, index)
+    best = front([(cost, error + spread, error) for points in lines.values() for _, cost, error, spread in points
+                  if not math.isnan(spread)])
+    axis.plot([cost for cost, *_ in best], [max(error, FLOOR) for *_, error in best], "o:", color="0.25", markersize=13,
+              markerfacecolor="none", label="Pareto front", zorder=1)
+    axis.set(xscale="log", yscale="log")
+
+
+def _line(axis, name, points, index):
+    colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
+    costs, errors = [cost for _, cost, _, _ in points], [max(error, FLOOR) for _, _, error, _ in points]
+    axis.plot(costs, errors, marker=marker, color=colour, label=name)
+    for (label, *_, spread), cost, error in zip(points, costs, errors):
+        if spread > 0:
+            axis.plot([cost, cost], [max(error - spread, error / 5), error + spread], color=colour, linewidth=1)
+        axis.annotate(label, (cost, error), BESIDE[index % len(BESIDE)], textcoords="offset points", fontsize=8, color=colour)
+
+
+def _one_legend(figure, axes):
+    """Above all axes."""
+    for axis in axes:
+        _whole_decades(axis)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncol=3)
+    figure.tight_layout(rect=(0, 0, 1, 0.88))
+
+
+def _whole_decades(axis):
+    """Limits at powers of ten, so that both axes have numbers."""
+    for low_and_high, limit in ((axis.get_xlim(), axis.set_xlim), (axis.get_ylim(), axis.set_ylim)):
+        low, high = (math.log10(value) for value in low_and_high)
+        limit(10 ** math.floor(low), 10 ** math.ceil(high))
+    for direction in (axis.xaxis, axis.yaxis):
+        direction.set_minor_formatter(NullFormatter())
+
+
+def _write(figure, path):
+    figure.savefig(path)
+    plt.close(figure)
