@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/implicit_step.hpp"
+
+#include <cmath>
+
+namespace softgrain {
+namespace {
+
+    /// Force against a slide d of a contact that bears b at most, and its slope; see ImplicitStep.
+    struct Friction {
+        double force, slope, energy;
+        Friction(double d, double b, double kappa)
+        {
+            const double root = std::sqrt(kappa * kappa + b * b * d * d), sum = kappa + root;
+            force = sum > 0 ? b * b * d / sum : 0;
+            slope = root > 0 ? b * b / sum : 0; // secant
+            energy = root - kappa - (kappa > 0 ? kappa * std::log(sum / (2 * kappa)) : 0);
+        }
+        /// Slope for a force t of its own (Chan, Golub and Mulet 1999).
+        static double slope_for(double t, double d, double b, double kappa)
+        {
+            const double root = std::sqrt(kappa * kappa + b * b * d * d);
+            return b * b * (1 - std::abs(t * d) / std::max(root, 1e-300)) / (kappa + root);
+        }
+    };
+
+    constexpr double fraction_to_boundary = 0.995;
+
+} // namespace
+
+template <int Dim>
+ImplicitStep<Dim>::ImplicitStep(Assembly<Dim>& assembly)
+    : assembly_(assembly)
+    , grains_(assembly)
+{
+    for (const Grain<Dim>* grain : assembly.grains())
+        least_force_ = std::max(least_force_, 1e-4 * grain->law->shear_modulus(grain->parameters.data()) * grain->radius);
+}
+
+/// Feet, normals, gaps and slides at the grains' places.
+template <int Dim> bool ImplicitStep<Dim>::locate()
+{
+    grains_.slide(way_);
+    for (auto& contact : contacts) {
+        const Surface<Dim>& body = *scene_->bodies[contact.body];
+        if (contact.other < 0) {
+            contact.gap = contact.normal.dot(body.x(contact.point)) - contact.plane;
+        } else {
+            const Surface<Dim>& other = *scene_->bodies[contact.other];
+            const Projection at = project(other, body.x(contact.point), contact.face, contact.place);
+            contact.face = at.segment;
+            contact.place = at.t;
+            contact.vertex = at.vertex;
+            contact.weight = at.weight;
+            contact.normal = at.normal;
+            contact.gap = at.gap + contact.let;
+        }
+        if (contact.friction > 0) contact.slide = (difference(contact, way_) - contact.drive).dot(contact.tangent());
+    }
+    return true;
+}
+
+template <int Dim> void ImplicitStep<Dim>::start_values(double)
+{
+    // how much the guess misses, and the force that goes with it
+    double missed = 0, size = 0, force = 0;
+    int loaded = 0;
+    for (const auto& contact : contacts) {
+        missed = std::max(missed, -contact.gap);
+        size = std::max(size, contact.size);
+        if (contact.force > 0) {
+            force += contact.force;
+            ++loaded;
+        }
+    }
+    missed = std::clamp(0.3 * missed, 1e-4 * size, ahead_ * size);
+    double rigid = 1e300; // stiffness of the most mobile contact
+    for (const auto& contact : contacts)
+        rigid = std::min(rigid, 1 / contact.compliance);
+    kappa_ = missed * std::max(loaded ? force / loaded : 0, rigid * missed);
+    for (auto& contact : contacts) {
+        const double before = contact.force > 0 ? std::min(kappa_ / contact.force, 10 * missed) : missed;
+        contact.slack = std::max(contact.gap, before);
+        contact.force = kappa_ / contact.slack;
+        const double most = 0.9 * contact.friction * contact.force;
+        contact.shear = std::clamp(contact.shear, -most, most);
+    }
+}
+
+/// Potential with barriers, friction at the present bounds, and the price of gaps that are not their slacks.
+template <int Dim> double ImplicitStep<Dim>::merit(double potential) const
+{
+    double sum = potential;
+    for (const auto& contact : contacts) {
+        sum -= kappa_ * std::log(contact.slack);
+        sum += 2 * std::max(contact.force, contact.force + contact.force_step) * std::abs(contact.gap - contact.slack);
+        if (contact.friction > 0) sum += Friction(contact.slide, contact.friction * contact.force, kappa_).energy;
+    }
+    return sum;
+}
+
+/// || r - P_K(r - u - mu |u_t| n) || / max(|r|, |u|) with u = (gap, slide) in units of force through the mean stiffness.
+template <int Dim> double ImplicitStep<Dim>::contact_residual() const
+{
+    double stiffness = 0;
+    for (const auto& contact : contacts)
+        stiffness += 1 / (contact.compliance * double(contacts.size()));
+    double error = 0, r2 = 0;
+    for (const auto& contact : contacts) {
+        const double mu = contact.friction, un = stiffness * contact.gap, ut = mu > 0 ? stiffness * contact.slide : 0;
+        const double n = contact.force - un - mu * std::abs(ut), t = contact.shear - ut, size = std::abs(t);
+        double pn = n, pt = t;
+        if (mu * size <= -n || (mu == 0 && n < 0))
+            pn = pt = 0;
+        else if (size > mu * n) {
+            pn = (n + mu * size) / (1 + mu * mu);
+            pt = size > 0 ? mu * pn * t / size : 0;
+        }
+        error += std::pow(contact.force - pn, 2) + std::pow(contact.shear - pt, 2);
+        r2 += contact.force * contact.force + contact.shear * contact.shear;
+    }
+    // not |u| too, as Siconos has it: far points would hide what is wrong with those that touch
+    return std::sqrt(error) / std::max(std::sqrt(r2), least_force_);
+}
+
+template <int Dim>
+SurfaceField& ImplicitStep<Dim>::gather(SurfaceField& field, double BarrierContact<Dim>::*normal,
+                                        double BarrierContact<Dim>::*shear) const
+{
+    for (auto& values : field)
+        std::fill(values.begin(), values.end(), 0.0);
+    for (const auto& contact : contacts) {
+        const Vec<Dim> force = contact.*normal * contact.normal + contact.*shear * contact.tangent();
+        Eigen::Map<Vec<Dim>>(&field[size_t(contact.body)][size_t(Dim) * contact.point]) += force;
+        for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
+            Eigen::Map<Vec<Dim>>(&field[size_t(contact.other)][size_t(Dim) * contact.vertex[k]]) -= contact.weight[k] * force;
+    }
+    return field;
+}
+
+/// Changes of forces and slacks towards r s = kappa, less a correction of second order.
+template <int Dim> void ImplicitStep<Dim>::solve_contacts(double kappa, const Eigen::VectorXd& correction)
+{
+    Eigen::VectorXd b(system_.rows());
+    for (size_t c = 0; c < contacts.size(); ++c) {
+        const auto& contact = contacts[c];
+        const int row = system_.row(int(c));
+        b[row] = (kappa - correction[Eigen::Index(c)]) / contact.force - contact.slack - (contact.gap - contact.slack) - free_[row];
+        if (contact.friction > 0) {
+            const double bound = contact.friction * contact.force;
+            const double slope = Friction::slope_for(contact.shear, contact.slide, bound, kappa_);
+            b[row + 1] = (-Friction(contact.slide, bound, kappa_).force - contact.shear) / slope - free_[row + 1];
+        }
+    }
+    const Eigen::VectorXd change = system_.solve(b);
+    for (size_t c = 0; c < contacts.size(); ++c) {
+        auto& contact = contacts[c];
+        const int row = system_.row(int(c));
+        contact.force_step = change[row];
+        contact.shear_step = contact.friction > 0 ? change[row + 1] : 0;
+        contact.slack_step = (kappa - correction[Eigen::Index(c)] - contact.slack * change[row]) / contact.force - contact.slack;
+    }
+}
+
+template <int Dim>
+double ImplicitStep<Dim>::largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const
+{
+    double share = 1;
+    for (const auto& contact : contacts)
+        if (contact.*step < 0) share = std::min(share, -fraction_to_boundary * contact.*value / contact.*step);
+    return share;
+}
+
+template <int Dim>
+typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const ImplicitSettings& settings,
+                                                               const Vec<Dim>& gravity, ImplicitScene<Dim>& scene)
+{
+    using Contact = BarrierContact<Dim>;
+    scene_ = &scene;
+    const auto predict = [&](const Vec<Dim>& x) { return scene.prediction(x, dt); };
+    contacts = scene.contacts(ahead_, dt);
+    for (SurfaceField* field : { &way_, &forces_, &moved_ }) {
+        field->resize(scene.bodies.size());
+        for (size_t b = 0; b < field->size(); ++b)
+            (*field)[b].assign(size_t(Dim) * scene.bodies[b]->count, 0);
+    }
+    points_.clear();
+    for (const Surface<Dim>* body : scene.bodies)
+        points_.push_back(body->count);
+    grains_.begin(dt, settings, gravity, predict);
+    system_.analyse(contacts, int(scene.bodies.size()));
+    const auto condense = [&] {
+        grains_.condense();
+        auto compliance = grains_.compliance();
+        compliance.resize(scene.bodies.size(), nullptr);
+        system_.assemble(contacts, compliance, points_);
+    };
+
+    // where to start
+    typename ImplicitGrains<Dim>::Place place {};
+    using Start = typename ImplicitGrains<Dim>::Start;
+    double best = 1e300;
+    Start best_start = Start::rest;
+    for (Start start : { Start::rest, Start::velocity, Start::prediction }) {
+        grains_.aim(start);
+        place = grains_.evaluate(1);
+        if (!place.sound || grains_.farthest() > ahead_ / 2) continue;
+        locate();
+        double value = place.potential;
+        for (const auto& contact : contacts)
+            value += 2 * contact.force * std::max(0.0, -contact.gap);
+        if (value < best) {
+            best = value;
+            best_start = start;
+        }
+    }
+    grains_.aim(best_start);
+    place = grains_.evaluate(1);
+    grains_.settle();
+    locate();
+
+    Outcome outcome;
+    int recentred = 0;
+    const bool trace = std::getenv("IMPLICIT_TRACE");
+    for (;; ++outcome.iterations) {
+        if (outcome.iterations == 0) {
+            condense();
+            start_values(dt);
+        }
+        gather(forces_, &Contact::force, &Contact::shear);
+        const auto balance = grains_.load(forces_);
+        outcome.residual = contact_residual();
+        outcome.unbalanced
+            = balance.unbalanced / std::max({ balance.contact, settings.quasistatic ? 0 : balance.inertia, least_force_ });
+        outcome.penetration = 0;
+        double sum = 0, weighted = 0;
+        for (const auto& contact : contacts) {
+            outcome.penetration = std::max(outcome.penetration, -contact.gap / contact.size);
+            sum += contact.force;
+            weighted += contact.force * std::max(contact.gap, 0.0) / contact.size;
+        }
+        outcome.distance = sum > 0 ? weighted / sum : 0;
+        if (trace)
+            std::printf("   it %2d  unbalanced %.2e  residual %.2e  distance %.1e  penetration %.1e  kappa %.2e  potential %.6e\n",
+                        outcome.iterations, outcome.unbalanced, outcome.residual, outcome.distance, outcome.penetration, kappa_,
+                        place.potential);
+        if (settings.quasistatic && outcome.unbalanced < settings.tolerance && outcome.residual < settings.tolerance
+            && balance.inertia > settings.tolerance * std::max(balance.contact, least_force_) && recentred < settings.most_recentrings) {
+            ++recentred;
+            grains_.recentre();
+            place = grains_.evaluate(0);
+            continue;
+        }
+        if (outcome.unbalanced < settings.tolerance && outcome.residual < settings.tolerance && outcome.penetration < 1e-5) {
+            outcome.converged = true;
+            break;
+        }
+        if (outcome.iterations >= settings.most_iterations) {
+            outcome.trouble = "Newton's method did not converge";
+            break;
+        }
+        if (outcome.iterations > 0) condense();
+        grains_.solve(moved_);
+        Eigen::VectorXd diagonal(system_.rows());
+        free_.resize(system_.rows());
+        for (size_t c = 0; c < contacts.size(); ++c) {
+            const auto& contact = contacts[c];
+            const int row = system_.row(int(c));
+            const Vec<Dim> way = difference(contact, moved_);
+            diagonal[row] = contact.slack / contact.force;
+            free_[row] = contact.normal.dot(way);
+            if (contact.friction > 0) {
+                diagonal[row + 1]
+                    = 1 / Friction::slope_for(contact.shear, contact.slide, contact.friction * contact.force, kappa_);
+                free_[row + 1] = contact.tangent().dot(way);
+            }
+        }
+        if (!contacts.empty()) {
+            if (!system_.factorise(diagonal)) {
+                outcome.trouble = "the contact system is singular";
+                break;
+            }
+            // predictor
+            Eigen::VectorXd correction = Eigen::VectorXd::Zero(Eigen::Index(contacts.size()));
+            solve_contacts(0, correction);
+            const double share_p = largest_share(&Contact::slack, &Contact::slack_step);
+            const double share_d = largest_share(&Contact::force, &Contact::force_step);
+            double now = 0, then = 0;
+            for (size_t c = 0; c < contacts.size(); ++c) {
+                const auto& contact = contacts[c];
+                now += contact.slack * contact.force;
+                then += (contact.slack + share_p * contact.slack_step) * (contact.force + share_d * contact.force_step);
+                correction[Eigen::Index(c)] = share_p * share_d * contact.slack_step * contact.force_step;
+            }
+            const double mean = now / double(contacts.size());
+            const double shrink = std::pow(then / now, 3);
+            double floor = 0;
+            for (const auto& contact : contacts)
+                floor += contact.force * contact.size * 1e-6 / double(contacts.size());
+            if (outcome.residual > 0.5 * settings.tolerance) floor *= 1e-3;
+            kappa_ = std::max(floor, mean * std::clamp(shrink, 1e-2, 1.0));
+            solve_contacts(kappa_, correction);
+        }
+        gather(forces_, &Contact::force_step, &Contact::shear_step);
+        grains_.solve(moved_, &forces_);
+
+        const double share_d = largest_share(&Contact::force, &Contact::force_step);
+        double share = largest_share(&Contact::slack, &Contact::slack_step);
+        share = std::min(share, ahead_ / (2 * std::max(grains_.reach_of_step(), 1e-300)));
+        const double before = merit(place.potential);
+        const std::vector<Contact> saved = contacts;
+        int cuts = 0;
+        for (;; ++cuts, share *= 0.5) {
+            place = grains_.evaluate(share);
+            if (place.sound) {
+                for (size_t c = 0; c < contacts.size(); ++c)
+                    contacts[c].slack = saved[c].slack + share * saved[c].slack_step;
+                locate();
+                const double after = merit(place.potential);
+                if (after < before + 1e-9 * (std::abs(before) + least_force_ * 1e-3) || cuts > 6) break;
+            }
+            contacts = saved;
+            if (cuts > 30) break;
+        }
+        if (trace) std::printf("       share %.2e dual %.2e cuts %d reach %.2e\n", share, share_d, cuts, grains_.reach_of_step());
+        if (!place.sound) {
+            outcome.trouble = "a material point would turn inside out";
+            break;
+        }
+        grains_.settle();
+        for (auto& contact : contacts) {
+            contact.force += share_d * contact.force_step;
+            contact.shear += share_d * contact.shear_step;
+            const double most = 0.999 * contact.friction * contact.force;
+            contact.shear = std::clamp(contact.shear, -most, most);
+        }
+        if (grains_.farthest() > ahead_ / 2) {
+            outcome.trouble = "grains move too far";
+            outcome.too_far = true;
+            break;
+        }
+    }
+    if (!outcome.converged) {
+        grains_.restore();
+        if (outcome.too_far && ahead_ < 0.3) {
+            ahead_ = std::min(2 * ahead_, 0.3);
+            Outcome again = attempt(dt, settings, gravity, scene);
+            again.iterations += outcome.iterations;
+            return again;
+        }
+        return outcome;
+    }
+    ahead_ = std::clamp(4 * grains_.farthest(), 0.04, 0.3);
+    outcome.dissipated = grains_.accept();
+    fill_problem(dt, settings);
+    return outcome;
+}
+
+template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt, const ImplicitSettings& settings)
+{
+    grains_.slide(way_);
+    problem.bodies = scene_->bodies;
+    problem.contacts.clear();
+    for (size_t g = 0; g < assembly_.grains().size(); ++g) {
+        Surface<Dim>& surface = *scene_->bodies[g];
+        for (size_t i = 0; i < surface.velocity.size(); ++i)
+            surface.velocity[i] = surface.velocity_before[i] = way_[g][i] / dt;
+    }
+    double stiffness = 0;
+    for (const auto& contact : contacts)
+        stiffness += 1 / (contact.compliance * double(contacts.size()));
+    const double length = (settings.quasistatic ? 1 : settings.theta) * dt;
+    for (const auto& from : contacts) {
+        Contact<Dim> contact;
+        contact.body = from.body;
+        contact.other = from.other;
+        contact.point = from.point;
+        contact.face = from.face;
+        contact.vertex = from.vertex;
+        contact.weight = from.weight;
+        contact.normal = from.normal;
+        contact.drive = from.drive / dt;
+        contact.friction = from.friction;
+        contact.law = nullptr;
+        // points that stand off bear no force but what the barrier leaves
+        contact.impulse = from.force > stiffness * from.gap ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
+        contact.inertia = length * dt / from.compliance;
+        const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
+        contact.gap_speed = from.gap / dt - rate;
+        problem.contacts.push_back(contact);
+    }
+}
+
+template class ImplicitStep<2>;
+
+} // namespace softgrain
