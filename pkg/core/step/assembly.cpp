@@ -167,6 +167,8 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         kernels.push[batch.wide()](batch.data());
         kernels.drift[batch.wide()](batch.data(), dt);
         sound[b] = observe(b, dt, after);
+        for (const Grain<Dim>* grain : members_[b])
+            sound[b] &= !leaps(*grain, dt);
     }
     report_unsound(sound, dt);
 }
@@ -218,7 +220,7 @@ template <int Dim> bool Assembly<Dim>::observe(int b, double dt, const Visit& af
         surface.speed = std::sqrt(speed2);
         surface.travel += dt * surface.speed;
         grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
-        sound &= is_finite(grain) && !leaps(grain, dt);
+        sound &= is_finite(grain);
         if (after) after(grain);
     }
     return sound;

@@ -11,6 +11,7 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
     , compliance_(assembly.grains().size())
     , compliance_view_(assembly.grains().size())
     , start_(assembly.grains().size())
+    , mark_(assembly.grains().size())
 {
     int first = 0;
     for (int b = 0; b < assembly.batch_count(); ++b) {
@@ -20,9 +21,9 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
         if (pattern->most_rows > StiffnessPattern<Dim>::row_limit)
             throw UserError("soft grain #" + std::to_string(assembly.members(b)[0]->id)
                             + ": its grid is too coarse for the implicit scheme; give more points.");
-        Part part { &batch, &assembly.members(b), first, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true };
+        Part part { &batch, &assembly.members(b), first, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true };
         const size_t size = size_t(Dim) * pattern->rows * batch.lanes, points = size_t(batch.mesh->surface_count());
-        for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.centre, &part.lift,
+        for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage, &part.centre, &part.lift,
                                       &part.rhs, &part.loads })
             field->resize(size);
         part.inertia.assign(size_t(batch.lanes), 1);
@@ -60,7 +61,7 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
         std::copy_n(data.force, part.force.size(), part.force.begin());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const Grain<Dim>& grain = *(*part.members)[lane];
-            start_[size_t(part.first) + lane] = grain.surface.position;
+            start_[size_t(part.first) + lane] = mark_[size_t(part.first) + lane] = grain.surface.position;
             const double R = grain.radius, mass = grain.density * R * R, shear = grain.law->shear_modulus(grain.parameters.data());
             const Vec<Dim> body = (gravity + grain.acceleration) / R, way = prediction(grain.motion.position) / R;
             const Vec<Dim> centre = (grain.motion.position - grain.origin) / R;
@@ -81,7 +82,7 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
                 }
             }
         }
-        part.base = part.displacement;
+        part.base = part.stage = part.displacement;
     });
 }
 
@@ -129,7 +130,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::eval
                 += std::pow(grain.radius, Dim) * (batch.per_lane[lane] + 0.5 * part.inertia[lane] * away);
             part.sound &= batch.per_lane[lanes + lane] > 0;
             Surface<Dim>& surface = grain.surface;
-            const auto& start = start_[size_t(part.first) + lane];
+            const auto& start = mark_[size_t(part.first) + lane];
             double longest = 0;
             for (int p = 0; p < surface.count; ++p) {
                 double way = 0;
@@ -160,7 +161,36 @@ template <int Dim> void ImplicitGrains<Dim>::settle()
 
 template <int Dim> void ImplicitGrains<Dim>::recentre()
 {
-    each_part([&](Part& part) { std::copy_n(part.batch->displacement.begin(), part.centre.size(), part.centre.begin()); });
+    each_part([&](Part& part) {
+        std::copy_n(part.batch->displacement.begin(), part.stage.size(), part.stage.begin());
+        part.centre = part.stage;
+    });
+}
+
+template <int Dim> void ImplicitGrains<Dim>::back_to_centre()
+{
+    each_part([&](Part& part) {
+        part.base = part.stage;
+        for (size_t lane = 0; lane < part.members->size(); ++lane) {
+            part.inertia[lane] *= 4;
+            for (size_t k = lane; k < part.lift.size(); k += part.batch->lanes)
+                part.lift[k] /= 4;
+        }
+    });
+}
+
+template <int Dim> void ImplicitGrains<Dim>::mark()
+{
+    each_part([&](Part& part) {
+        for (size_t lane = 0; lane < part.members->size(); ++lane) {
+            Surface<Dim>& surface = (*part.members)[lane]->surface;
+            surface.travel += part.farthest * surface.size;
+            surface.bound();
+            mark_[size_t(part.first) + lane] = surface.position;
+        }
+        part.farthest = 0;
+    });
+    farthest_ = 0;
 }
 
 template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::load(const SurfaceField& contact_forces)

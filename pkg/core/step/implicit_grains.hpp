@@ -15,7 +15,7 @@ struct ImplicitSettings {
     double tolerance = 1e-3;       ///< of the balance of forces, and of the contact residual
     double regularisation = 0.02;  ///< quasi-static: stiffness per area that holds grains at their centre [shear modulus]
     int most_iterations = 60;      ///< of Newton's method in a step
-    int most_recentrings = 4;
+    int most_stages = 30;          ///< of a quasi-static step
     int threads = 1;
 };
 
@@ -47,9 +47,13 @@ public:
     Place evaluate(double share);
     /// Makes the last place evaluated the base.
     void settle();
-    /// Quasi-static: holds the grains where they are from now on.
+    /// Quasi-static: holds the grains at the last place evaluated from now on.
     void recentre();
-    /// Largest way of a surface point since the start of the step over its grain's radius, at the last place evaluated.
+    /// Quasi-static: back to where the grains are held, and holds them four times as stiffly.
+    void back_to_centre();
+    /// Fits the boxes of the surfaces to the last place evaluated; ways count from it.
+    void mark();
+    /// Largest way of a surface point since the last mark over its grain's radius, at the last place evaluated.
     double farthest() const { return farthest_; }
     /// Largest way of a surface point along the search direction [radius].
     double reach_of_step() const { return reach_; }
@@ -80,7 +84,7 @@ private:
         int first; ///< grain, among all
         const StiffnessPattern<Dim>* pattern;
         AlignedVector displacement, velocity, force; ///< at the start of the step
-        AlignedVector base, step;                    ///< [master][Dim][lane]
+        AlignedVector base, step, stage;             ///< [master][Dim][lane]
         AlignedVector centre, lift;                  ///< the target without body forces, and what they add to it
         AlignedVector inertia;                       ///< [lane], 1 / (theta h)^2 in units of the stiffness [Pa]
         AlignedVector rhs, loads;                    ///< [row][Dim][lane]
@@ -96,7 +100,7 @@ private:
     std::map<const Discretisation<Dim>*, std::unique_ptr<StiffnessPattern<Dim>>> patterns_;
     std::vector<std::vector<double>> compliance_; ///< [grain]
     std::vector<const double*> compliance_view_;
-    SurfaceField start_;
+    SurfaceField start_, mark_; ///< positions at the start of the step and at the last mark [m]
     ImplicitSettings settings_;
     Prediction prediction_;
     double dt_ = 0, farthest_ = 0, reach_ = 0;

@@ -2,6 +2,8 @@
 #include "step/implicit_step.hpp"
 
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace softgrain {
 namespace {
@@ -25,6 +27,8 @@ namespace {
     };
 
     constexpr double fraction_to_boundary = 0.995;
+    /// Gaps below are looked at [radius of the smaller body]; looked for anew when a grain has moved by a quarter of it.
+    constexpr double ahead = 0.1;
 
 } // namespace
 
@@ -73,7 +77,7 @@ template <int Dim> void ImplicitStep<Dim>::start_values(double)
             ++loaded;
         }
     }
-    missed = std::clamp(0.3 * missed, 1e-4 * size, ahead_ * size);
+    missed = std::clamp(0.3 * missed, 1e-4 * size, ahead * size);
     double rigid = 1e300; // stiffness of the most mobile contact
     for (const auto& contact : contacts)
         rigid = std::min(rigid, 1 / contact.compliance);
@@ -85,6 +89,28 @@ template <int Dim> void ImplicitStep<Dim>::start_values(double)
         const double most = 0.9 * contact.friction * contact.force;
         contact.shear = std::clamp(contact.shear, -most, most);
     }
+}
+
+/// Looks for contacts anew where the grains are now; those that go on keep forces and slacks.
+template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
+{
+    const auto key = [](const BarrierContact<Dim>& c) {
+        return std::make_tuple(c.body, c.other, c.point, c.other < 0 ? c.normal[0] + 2 * c.normal[1] : 0.0);
+    };
+    std::map<decltype(key(contacts[0])), const BarrierContact<Dim>*> known;
+    const std::vector<BarrierContact<Dim>> before = std::move(contacts);
+    for (const auto& contact : before)
+        known[key(contact)] = &contact;
+    grains_.mark();
+    contacts = scene_->contacts(ahead, dt);
+    locate();
+    for (auto& contact : contacts) {
+        const auto found = known.find(key(contact));
+        contact.slack = found != known.end() ? found->second->slack : std::max(contact.gap, 1e-2 * contact.size);
+        contact.force = found != known.end() ? found->second->force : kappa_ / contact.slack;
+        contact.shear = found != known.end() ? found->second->shear : 0;
+    }
+    system_.analyse(contacts, int(scene_->bodies.size()));
 }
 
 /// Potential with barriers, friction at the present bounds, and the price of gaps that are not their slacks.
@@ -178,7 +204,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
     using Contact = BarrierContact<Dim>;
     scene_ = &scene;
     const auto predict = [&](const Vec<Dim>& x) { return scene.prediction(x, dt); };
-    contacts = scene.contacts(ahead_, dt);
+    contacts = scene.contacts(ahead, dt);
     for (SurfaceField* field : { &way_, &forces_, &moved_ }) {
         field->resize(scene.bodies.size());
         for (size_t b = 0; b < field->size(); ++b)
@@ -204,7 +230,8 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
     for (Start start : { Start::rest, Start::velocity, Start::prediction }) {
         grains_.aim(start);
         place = grains_.evaluate(1);
-        if (!place.sound || grains_.farthest() > ahead_ / 2) continue;
+        if (!place.sound || grains_.farthest() > 0.5) continue;
+        if (grains_.farthest() > ahead / 4) renew_contacts(dt);
         locate();
         double value = place.potential;
         for (const auto& contact : contacts)
@@ -217,15 +244,20 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
     grains_.aim(best_start);
     place = grains_.evaluate(1);
     grains_.settle();
-    locate();
+    if (grains_.farthest() > ahead / 4)
+        renew_contacts(dt);
+    else
+        locate();
 
     Outcome outcome;
-    int recentred = 0;
+    int begun = 0, backs = 0; // iteration at which the stage began; how often it was begun again
+    std::vector<Contact> at_stage;
     const bool trace = std::getenv("IMPLICIT_TRACE");
     for (;; ++outcome.iterations) {
         if (outcome.iterations == 0) {
             condense();
             start_values(dt);
+            at_stage = contacts;
         }
         gather(forces_, &Contact::force, &Contact::shear);
         const auto balance = grains_.load(forces_);
@@ -244,20 +276,28 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             std::printf("   it %2d  unbalanced %.2e  residual %.2e  distance %.1e  penetration %.1e  kappa %.2e  potential %.6e\n",
                         outcome.iterations, outcome.unbalanced, outcome.residual, outcome.distance, outcome.penetration, kappa_,
                         place.potential);
-        if (settings.quasistatic && outcome.unbalanced < settings.tolerance && outcome.residual < settings.tolerance
-            && balance.inertia > settings.tolerance * std::max(balance.contact, least_force_) && recentred < settings.most_recentrings) {
-            ++recentred;
-            grains_.recentre();
-            place = grains_.evaluate(0);
-            continue;
-        }
         if (outcome.unbalanced < settings.tolerance && outcome.residual < settings.tolerance && outcome.penetration < 1e-5) {
-            outcome.converged = true;
-            break;
+            outcome.held = balance.inertia / std::max(balance.contact, least_force_);
+            if (!settings.quasistatic || outcome.stages > settings.most_stages
+                || balance.inertia < std::max(settings.tolerance * balance.contact, 0.1 * least_force_)) {
+                outcome.converged = true;
+                break;
+            }
+            grains_.recentre();
+            ++outcome.stages;
+            begun = outcome.iterations;
+            place = grains_.evaluate(0);
+            at_stage = contacts;
         }
-        if (outcome.iterations >= settings.most_iterations) {
+        if (outcome.iterations >= begun + settings.most_iterations) {
             outcome.trouble = "Newton's method did not converge";
-            break;
+            if (!settings.quasistatic || ++backs > 8) break;
+            grains_.back_to_centre();
+            place = grains_.evaluate(0);
+            contacts = at_stage;
+            renew_contacts(dt);
+            begun = outcome.iterations;
+            continue;
         }
         if (outcome.iterations > 0) condense();
         grains_.solve(moved_);
@@ -306,7 +346,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
 
         const double share_d = largest_share(&Contact::force, &Contact::force_step);
         double share = largest_share(&Contact::slack, &Contact::slack_step);
-        share = std::min(share, ahead_ / (2 * std::max(grains_.reach_of_step(), 1e-300)));
+        share = std::min(share, ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
         const double before = merit(place.potential);
         const std::vector<Contact> saved = contacts;
         int cuts = 0;
@@ -334,23 +374,12 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             const double most = 0.999 * contact.friction * contact.force;
             contact.shear = std::clamp(contact.shear, -most, most);
         }
-        if (grains_.farthest() > ahead_ / 2) {
-            outcome.trouble = "grains move too far";
-            outcome.too_far = true;
-            break;
-        }
+        if (grains_.farthest() > ahead / 4) renew_contacts(dt);
     }
     if (!outcome.converged) {
         grains_.restore();
-        if (outcome.too_far && ahead_ < 0.3) {
-            ahead_ = std::min(2 * ahead_, 0.3);
-            Outcome again = attempt(dt, settings, gravity, scene);
-            again.iterations += outcome.iterations;
-            return again;
-        }
         return outcome;
     }
-    ahead_ = std::clamp(4 * grains_.farthest(), 0.04, 0.3);
     outcome.dissipated = grains_.accept();
     fill_problem(dt, settings);
     return outcome;

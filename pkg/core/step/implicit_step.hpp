@@ -32,9 +32,11 @@ public:
     explicit ImplicitStep(Assembly<Dim>& assembly);
 
     struct Outcome {
-        bool converged = false, too_far = false;
+        bool converged = false;
         std::string trouble;      ///< why not
         int iterations = 0;       ///< of Newton's method
+        int stages = 1;           ///< quasi-static: places that the grains were held at
+        double held = 0;          ///< quasi-static: what still holds them, over contact forces
         double residual = 0;      ///< of the contacts, Siconos's measure
         double unbalanced = 0;    ///< forces that lack balance over contact forces
         double distance = 0;      ///< mean gap, weighted by the forces [radius of the smaller body]
@@ -53,6 +55,7 @@ private:
     struct Merit;
     bool locate();
     void start_values(double dt);
+    void renew_contacts(double dt);
     double merit(double potential) const;
     double contact_residual() const;
     SurfaceField& gather(SurfaceField& field, double BarrierContact<Dim>::*normal, double BarrierContact<Dim>::*shear) const;
@@ -67,7 +70,7 @@ private:
     SurfaceField way_, forces_, moved_;
     std::vector<int> points_;
     Eigen::VectorXd free_; ///< way along normals and tangents without changes of forces
-    double kappa_ = 0, ahead_ = 0.05;
+    double kappa_ = 0;
     double least_force_ = 0; ///< forces below count as none: 1e-4 shear moduli times radius [N]
 };
 
