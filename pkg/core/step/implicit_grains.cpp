@@ -239,7 +239,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
     return { std::sqrt(total.unbalanced), std::sqrt(total.contact), std::sqrt(total.inertia), total.worst };
 }
 
-template <int Dim> void ImplicitGrains<Dim>::condense()
+template <int Dim> void ImplicitGrains<Dim>::condense(const std::vector<double>& damping)
 {
     each_part([&](Part& part) {
         Batch<Dim>& batch = *part.batch;
@@ -249,7 +249,10 @@ template <int Dim> void ImplicitGrains<Dim>::condense()
         if (room.size() < needed) room.resize(needed);
         const auto& kernels = stiffness_kernels();
         KernelData<Dim> data = batch.data();
-        batch.law.stiffness[batch.wide()](data, part.pattern, part.inertia.data(), part.matrix.data());
+        AlignedVector inertia(part.inertia);
+        for (size_t lane = 0; lane < part.members->size(); ++lane)
+            inertia[lane] += damping[size_t(part.first) + lane];
+        batch.law.stiffness[batch.wide()](data, part.pattern, inertia.data(), part.matrix.data());
         kernels.factorise[batch.wide()](data, part.pattern, part.matrix.data());
         kernels.compliance[batch.wide()](data, part.pattern, part.matrix.data(), room.data(), part.compliance.data());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {

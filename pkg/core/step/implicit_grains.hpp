@@ -64,8 +64,9 @@ public:
     };
     /// Forces that lack balance at the last place evaluated, under contact forces at the surfaces [N].
     Forces load(const SurfaceField& contact_forces);
-    /// Stiffness, its factor and the compliances of the surfaces.
-    void condense();
+    /// Stiffness, its factor and the compliances of the surfaces. `damping` of each grain adds to the inertia in the search
+    /// direction alone, per node mass [Pa].
+    void condense(const std::vector<double>& damping);
     const std::vector<const double*>& compliance() const { return compliance_view_; }
     /// Search direction K^-1 of the load and, when given, further surface forces; the way of the surfaces along it [m].
     void solve(SurfaceField& way, const SurfaceField* further = nullptr);

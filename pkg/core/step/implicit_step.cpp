@@ -109,6 +109,7 @@ template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
         contact.slack = found != known.end() ? found->second->slack : std::max(contact.gap, 1e-2 * contact.size);
         contact.force = found != known.end() ? found->second->force : kappa_ / contact.slack;
         contact.shear = found != known.end() ? found->second->shear : 0;
+        contact.compliance = found != known.end() ? found->second->compliance : 0;
     }
     system_.analyse(contacts, int(scene_->bodies.size()));
 }
@@ -125,12 +126,23 @@ template <int Dim> double ImplicitStep<Dim>::merit(double potential) const
     return sum;
 }
 
+/// Mean of the contacts' stiffnesses along their normals, those that are known [N/m].
+template <int Dim> double ImplicitStep<Dim>::mean_stiffness() const
+{
+    double sum = 0;
+    int known = 0;
+    for (const auto& contact : contacts)
+        if (contact.compliance > 0) {
+            sum += 1 / contact.compliance;
+            ++known;
+        }
+    return known ? sum / known : 0;
+}
+
 /// || r - P_K(r - u - mu |u_t| n) || / max(|r|, |u|) with u = (gap, slide) in units of force through the mean stiffness.
 template <int Dim> double ImplicitStep<Dim>::contact_residual() const
 {
-    double stiffness = 0;
-    for (const auto& contact : contacts)
-        stiffness += 1 / (contact.compliance * double(contacts.size()));
+    const double stiffness = mean_stiffness();
     double error = 0, r2 = 0;
     for (const auto& contact : contacts) {
         const double mu = contact.friction, un = stiffness * contact.gap, ut = mu > 0 ? stiffness * contact.slide : 0;
@@ -216,7 +228,14 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
     grains_.begin(dt, settings, gravity, predict);
     system_.analyse(contacts, int(scene.bodies.size()));
     const auto condense = [&] {
-        grains_.condense();
+        std::vector<double> damping(assembly_.grains().size(), 0);
+        for (const auto& contact : contacts) {
+            damping[size_t(contact.body)] += contact.force;
+            if (contact.other >= 0 && size_t(contact.other) < damping.size()) damping[size_t(contact.other)] += contact.force;
+        }
+        for (size_t g = 0; g < damping.size(); ++g)
+            damping[g] *= damping_ / (2 * M_PI * assembly_.grains()[g]->radius);
+        grains_.condense(damping);
         auto compliance = grains_.compliance();
         compliance.resize(scene.bodies.size(), nullptr);
         system_.assemble(contacts, compliance, points_);
@@ -290,7 +309,9 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             at_stage = contacts;
         }
         if (outcome.iterations >= begun + settings.most_iterations) {
-            outcome.trouble = "Newton's method did not converge";
+            outcome.trouble = "forces on soft grain #" + std::to_string(assembly_.grains()[size_t(balance.worst)]->id)
+                + " find no balance (" + shown(outcome.unbalanced, 2) + " of the contact forces; contact residual "
+                + shown(outcome.residual, 2) + ", penetration " + shown(outcome.penetration, 2) + " radii)";
             if (!settings.quasistatic || ++backs > 8) break;
             grains_.back_to_centre();
             place = grains_.evaluate(0);
@@ -362,6 +383,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             contacts = saved;
             if (cuts > 30) break;
         }
+        damping_ = cuts > 0 ? std::clamp(4 * damping_, 0.05, 4.0) : 0.8 * damping_;
         if (trace) std::printf("       share %.2e dual %.2e cuts %d reach %.2e\n", share, share_d, cuts, grains_.reach_of_step());
         if (!place.sound) {
             outcome.trouble = "a material point would turn inside out";
@@ -395,9 +417,7 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt, const Implici
         for (size_t i = 0; i < surface.velocity.size(); ++i)
             surface.velocity[i] = surface.velocity_before[i] = way_[g][i] / dt;
     }
-    double stiffness = 0;
-    for (const auto& contact : contacts)
-        stiffness += 1 / (contact.compliance * double(contacts.size()));
+    const double stiffness = mean_stiffness();
     const double length = (settings.quasistatic ? 1 : settings.theta) * dt;
     for (const auto& from : contacts) {
         Contact<Dim> contact;

@@ -58,6 +58,7 @@ private:
     void renew_contacts(double dt);
     double merit(double potential) const;
     double contact_residual() const;
+    double mean_stiffness() const;
     SurfaceField& gather(SurfaceField& field, double BarrierContact<Dim>::*normal, double BarrierContact<Dim>::*shear) const;
     void solve_contacts(double kappa, const Eigen::VectorXd& correction);
     double largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const;
@@ -70,7 +71,7 @@ private:
     SurfaceField way_, forces_, moved_;
     std::vector<int> points_;
     Eigen::VectorXd free_; ///< way along normals and tangents without changes of forces
-    double kappa_ = 0;
+    double kappa_ = 0, damping_ = 0.1;
     double least_force_ = 0; ///< forces below count as none: 1e-4 shear moduli times radius [N]
 };
 

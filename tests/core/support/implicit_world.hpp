@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/narrow_phase.hpp"
-#include "step/implicit_step.hpp"
+#include "step/implicit_run.hpp"
 #include "support/grains.hpp"
 #include "support/world.hpp"
 
@@ -34,41 +34,28 @@ public:
         return grains.back();
     }
 
-    /// A step, cut into smaller ones where it has to be.
     void step(double dt)
     {
-        if (!stepper_) start();
-        plane_force.assign(planes.size(), Vec<2>::Zero());
-        if (substep_ == 0) substep_ = dt;
-        for (double done = 0; done < dt * (1 - 1e-12);) {
-            const double h = std::min(substep_, dt - done);
-            last = stepper_->attempt(h, settings, gravity, *this);
-            iterations += last.iterations;
-            if (!last.converged) {
-                if (std::getenv("IMPLICIT_TRACE")) std::printf("cut: %s\n", last.trouble.c_str());
-                substep_ = h / 2;
-                ++cuts;
-                if (substep_ < 1e-6 * dt) throw SimulationError(last.trouble);
-                continue;
-            }
-            ++substeps;
-            dissipated += last.dissipated;
-            worst_penetration = std::max(worst_penetration, last.penetration);
-            worst_residual = std::max(worst_residual, last.residual);
+        if (!run_) start();
+        run_->advance(dt, settings, gravity, *this, [&](double h, const ImplicitStep<2>::Outcome& outcome) {
+            last = outcome;
+            worst_penetration = std::max(worst_penetration, outcome.penetration);
+            worst_residual = std::max(worst_residual, outcome.residual);
+            Assembly<2>::account(run_->step.problem, balance);
             plane_force.assign(planes.size(), Vec<2>::Zero());
-            Assembly<2>::account(stepper_->problem, balance);
-            for (size_t c = 0; c < stepper_->contacts.size(); ++c) {
-                const auto& contact = stepper_->contacts[c];
+            for (size_t c = 0; c < run_->step.contacts.size(); ++c) {
+                const auto& contact = run_->step.contacts[c];
                 if (contact.other < 0) plane_force[plane_of_[c]] -= contact.total();
+                source_[c]->force = contact.total();
             }
-            keep_forces();
             assembly_->renew(h, settings.threads);
             for (Plane& plane : planes)
                 plane.position += h * plane.speed;
-            done += h;
-            if (last.iterations < 20) substep_ *= 1.5;
-            substep_ = std::min(substep_, dt);
-        }
+        });
+        iterations += run_->report.iterations;
+        substeps += run_->report.substeps;
+        cuts += run_->report.cuts;
+        dissipated += run_->report.dissipated;
         time += dt;
     }
     double total_energy()
@@ -81,17 +68,16 @@ public:
         }
         return settings.quasistatic ? elastic : kinetic + elastic;
     }
-    size_t contact_count() const { return stepper_->contacts.size(); }
+    size_t contact_count() const { return run_->step.contacts.size(); }
     double min_J() const { return assembly_->min_J(); }
 
 private:
     std::optional<Assembly<2>> assembly_;
-    std::optional<ImplicitStep<2>> stepper_;
+    std::optional<ImplicitRun<2>> run_;
     std::vector<PairContacts<2>> pairs_;         ///< of i < j
     std::vector<PlaneContacts<2>> plane_pairs_;  ///< [plane][grain]
     std::vector<ContactPoint<2>*> source_;
     std::vector<size_t> plane_of_;
-    double substep_ = 0;
 
     void start()
     {
@@ -102,7 +88,7 @@ private:
         // the assembly keeps the order
         for (Grain<2>* grain : assembly_->grains())
             bodies.push_back(&grain->surface);
-        stepper_.emplace(*assembly_);
+        run_.emplace(*assembly_);
         pairs_.resize(grains.size() * (grains.size() - 1) / 2);
         plane_pairs_.resize(planes.size() * grains.size());
     }
@@ -173,11 +159,6 @@ private:
             way[axis] = dt * (low->speed + share * (high->speed - low->speed));
         }
         return way;
-    }
-    void keep_forces()
-    {
-        for (size_t c = 0; c < source_.size(); ++c)
-            source_[c]->force = stepper_->contacts[c].total();
     }
 };
 
