@@ -21,7 +21,7 @@ void Ip2_FrictMat_SoftMat_SoftPhys::go(const shared_ptr<Material>& material1, co
                        + ": their friction angle is " + softgrain::shown(angle)
                        + " rad; set frictionAngle of their materials in [0, pi/2).");
     auto phys = shared_ptr<SoftPhys>(new SoftPhys);
-    phys->friction = std::tan(angle);
+    phys->tangensOfFrictionAngle = std::tan(angle);
     interaction->phys = phys;
 }
 

@@ -15,6 +15,16 @@
 namespace yade {
 
 namespace {
+    /// It writes positions past SoftState, which puts the grain back.
+    void refuseDisplacer(const Scene& scene, const PartialEngine& displacer)
+    {
+        for (Body::id_t id : displacer.ids)
+            if (scene.bodies->exists(id) && softStateOf(*(*scene.bodies)[id]))
+                throw std::runtime_error("StepDisplacer is to move soft grain #" + std::to_string(id)
+                                         + ", which would stay where it is; take the grain off its ids and set "
+                                           "state.pos in a PyRunner instead.");
+    }
+
     /// What a KinematicEngine sets of a grain is not looked at where the grain is free.
     void requireDriven(const Scene& scene, const PartialEngine& driver)
     {
@@ -60,9 +70,12 @@ void requireSoftEngines(const Scene& scene)
             ++integrators;
             inOrder = loops > 0;
         }
-        if (const auto* driver = dynamic_cast<const PartialEngine*>(engine.get()); driver
-            && (driver->getBaseClassName() == "KinematicEngine" || driver->getClassName() == "CombinedKinematicEngine"))
-            requireDriven(scene, *driver);
+        if (const auto* partial = dynamic_cast<const PartialEngine*>(engine.get())) {
+            const std::string name = partial->getClassName();
+            if (partial->getBaseClassName() == "KinematicEngine" || name == "CombinedKinematicEngine")
+                requireDriven(scene, *partial);
+            if (name == "StepDisplacer") refuseDisplacer(scene, *partial);
+        }
         if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) {
             ++loops;
             for (const auto& functor : loop->geomDispatcher->functors)

@@ -33,7 +33,7 @@ public:
             "Base of the materials of soft grains: hyperelastic, plane strain. :yref:`density<Material.density>` [kg/m³] is that of the "
             "undeformed grain; :yref:`frictionAngle<FrictMat.frictionAngle>` [rad] gives Coulomb's coefficient tan(angle) of a contact, the "
             "smaller of the two bodies' angles counting, as YADE does. Moduli and density can be changed at any time; a changed angle counts "
-            "for contacts that come after, as in YADE, and SoftPhys.friction is that of a contact there is. young and poisson are not used.",
+            "for contacts that come after, as in YADE, and SoftPhys.tangensOfFrictionAngle is that of a contact there is. young and poisson are not used.",
             ,
             createIndex(); density = 1000; frictionAngle = 0;);
     REGISTER_CLASS_INDEX(SoftMat, FrictMat);

@@ -43,7 +43,7 @@ void SoftPairs::pose(const Scene& scene, std::vector<TouchingPair>&& touching, R
             contact.gap_speed = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt;
             contact.drive = softgrain::Vec<2>::Zero();
             if (pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
-            contact.friction = pair.phys->friction;
+            contact.friction = pair.phys->tangensOfFrictionAngle;
             contact.law = pair.phys->law;
             contact.impulse = scene.dt * point.force;
             problem.contacts.push_back(contact);

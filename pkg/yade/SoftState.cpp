@@ -130,6 +130,25 @@ void SoftState::renew(const Body& body)
     inertia = Vector3r::Constant(grain.motion.second_moment.trace());
 }
 
+/// Both follow from what a body is made of; a value of its own would be without effect.
+void SoftState::setMass(Real value)
+{
+    if (prepared() && value != mass)
+        throw softgrain::UserError(whose(grain.id) + ": its mass follows from its shape and its material's density and is "
+                                   + softgrain::shown(mass) + " kg/m, not " + softgrain::shown(value)
+                                   + "; change material.density instead.");
+    mass = value;
+}
+
+void SoftState::setInertia(const Vector3r& value)
+{
+    if (prepared() && value != inertia)
+        throw softgrain::UserError(whose(grain.id)
+                                   + ": its moment of inertia follows from its shape and its material's density; change "
+                                     "material.density instead.");
+    inertia = value;
+}
+
 void SoftState::setPosition(const Vector3r& value)
 {
     if (runs()) {

@@ -42,6 +42,10 @@ public:
     Vector3r& spin() { return prepared() ? asked.angVel : angVel; }
     void setVelocity(const Vector3r& value) { velocity() = vel = value; }
     void setSpin(const Vector3r& value) { spin() = angVel = value; }
+    Real massAsSet() const { return mass; }
+    void setMass(Real value);
+    Vector3r inertiaAsSet() const { return inertia; }
+    void setInertia(const Vector3r& value);
     Vector3r position() const { return pos; }
     Quaternionr orientation() const { return ori; }
     void setPosition(const Vector3r& value);
@@ -102,6 +106,12 @@ public:
                             &SoftState::orientation,
                             &SoftState::setOrientation,
                             "Rotation in the polar decomposition of the mean deformation gradient; to be set before the first step only.")
+                    .add_property("mass", &SoftState::massAsSet, &SoftState::setMass, "Mass [kg/m]; follows from shape and density once the grain runs.")
+                    .add_property(
+                            "inertia",
+                            &SoftState::inertiaAsSet,
+                            &SoftState::setInertia,
+                            "Moment of inertia about the centre of mass, undeformed [kg m]; follows from shape and density once the grain runs.")
                     .add_property("se3", &SoftState::placement, &SoftState::setPlacement, "pos and ori.")
                     .add_property(
                             "vel",
