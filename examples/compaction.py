@@ -25,7 +25,7 @@ from softgrain import *
 from softgrain import builders, options as opt, runs, summary
 from softgrain.checks import InputError
 from softgrain.packings import SoftPacking
-from softgrain.press import COLUMNS, Press
+from softgrain.press import COLUMNS, Press, implicit_step
 from yade import O
 
 QUICK = {"grains": 40, "points": 60, "until": 0.9}
@@ -56,8 +56,10 @@ def make_scene(options):
                                options.points, options.seed)
     O.bodies.append(grains)
     _, _, bottom, top = O.bodies.append(softBox(width, height, wall_material))
-    O.engines = softEngines(dt=options.dt, friction=options.friction, wallFriction=options.wall_friction)
-    return {"width": width, "height": height, "bottom": bottom, "top": top}
+    box = {"width": width, "height": height, "bottom": bottom, "top": top}
+    method = opt.choose_method(options, implicit_step(box, options.speed))
+    O.engines = softEngines(friction=options.friction, wallFriction=options.wall_friction, **method)
+    return {**box, "longest_step": method["dt"] if "integrator" in method else None}
 
 
 def check(result, options):
@@ -87,7 +89,7 @@ def main():
     if not run.resumed:
         run.memory["box"] = make_scene(options)
     packing = SoftPacking(frictional=options.friction > 0 or options.wall_friction > 0)
-    press = Press(run, packing, run.memory["box"], options.speed)
+    press = Press(run, packing, run.memory["box"], options.speed, run.memory["box"]["longest_step"])
     press.go(options.until)
     result = summary.of_compaction(run, packing, press)
     return runs.conclude(run, result, check(result, options))

@@ -126,18 +126,30 @@ def softBox(width, height, material=-1):
 
 
 def softEngines(gravity=(0, 0, 0), dt=None, safety=0.8, tolerance=1e-3, maxSweeps=1000, verletDist=None,
-                friction=None, wallFriction=None, more=()):
+                friction=None, wallFriction=None, more=(), integrator="explicit", theta=1.0, quasistatic=False):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
     gravity       [m/s²]
-    dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper
+    dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper (explicit; implicit ones need it)
     safety        time step of the SoftTimeStepper [stable limit]
     tolerance     of the contact solver [-]; maxSweeps: most sweeps of it in a step
     verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain
     friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
     wallFriction  the same between grains and other bodies
     more          engines to append (recorders, PyRunners)
+    integrator    "explicit" or "implicit"; theta, quasistatic: see SoftImplicitIntegrator
     """
+    if integrator not in ("explicit", "implicit"):
+        raise InputError(f"softEngines: integrator is {integrator!r}: give 'explicit' or 'implicit'.")
+    implicit = integrator == "implicit"
+    if implicit and dt is None:
+        raise InputError("softEngines: the implicit integrator has no time step of its own: give dt.")
+    if quasistatic and not implicit:
+        raise InputError("softEngines: quasistatic=True has no meaning for the explicit integrator: give "
+                         "integrator='implicit'.")
+    theta = positive("softEngines: theta", theta)
+    if not 0.5 <= theta <= 1:
+        raise InputError(f"softEngines: theta is {theta:g}: give 0.5 to 1.")
     gravity = in_plane("softEngines: gravity", gravity, "m/s²")
     tolerance = positive("softEngines: tolerance", tolerance)
     safety = positive("softEngines: safety", safety)
@@ -156,6 +168,11 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=0.8, tolerance=1e-3, maxSweep
         verletDist = not_negative("softEngines: verletDist", verletDist, "m")
     if isinstance(more, wrapper.Engine) or not isinstance(more, (list, tuple)):
         raise InputError(f"softEngines: more is a {type(more).__name__}: give a list of engines.")
+    if implicit:
+        mover = wrapper.SoftImplicitIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, theta=theta,
+                                               quasistatic=bool(quasistatic))
+    else:
+        mover = wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps)
     return [
         wrapper.ForceResetter(),
         wrapper.InsertionSortCollider(
@@ -168,7 +185,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=0.8, tolerance=1e-3, maxSweep
              wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction))],
             [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics()]),
         wrapper.NewtonIntegrator(damping=0, gravity=Vector3(*gravity)),
-        wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps),
+        mover,
         *more,
     ]
 

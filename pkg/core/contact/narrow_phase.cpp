@@ -30,7 +30,7 @@ namespace {
 
 template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt)
 {
-    return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size;
+    return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size + a.ahead;
 }
 
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller)

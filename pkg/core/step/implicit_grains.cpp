@@ -13,7 +13,9 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
     , start_(assembly.grains().size())
     , mark_(assembly.grains().size())
 {
-    int first = 0;
+    std::map<const Grain<Dim>*, size_t> number;
+    for (const Grain<Dim>* grain : assembly.grains())
+        number.emplace(grain, number.size());
     for (int b = 0; b < assembly.batch_count(); ++b) {
         Batch<Dim>& batch = assembly.batch(b);
         auto& pattern = patterns_[batch.mesh.get()];
@@ -21,7 +23,7 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
         if (pattern->most_rows > StiffnessPattern<Dim>::row_limit)
             throw UserError("soft grain #" + std::to_string(assembly.members(b)[0]->id)
                             + ": its grid is too coarse for the implicit scheme; give more points.");
-        Part part { &batch, &assembly.members(b), first, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true };
+        Part part { &batch, &assembly.members(b), {}, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true };
         const size_t size = size_t(Dim) * pattern->rows * batch.lanes, points = size_t(batch.mesh->surface_count());
         for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage, &part.centre, &part.lift,
                                       &part.rhs, &part.loads })
@@ -29,7 +31,8 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
         part.inertia.assign(size_t(batch.lanes), 1);
         part.matrix.resize(size_t(pattern->block_count()) * Dim * Dim * batch.lanes);
         part.compliance.resize(points * points * Dim * Dim * batch.lanes);
-        first += int(part.members->size());
+        for (const Grain<Dim>* grain : *part.members)
+            part.index.push_back(number.at(grain));
         parts_.push_back(std::move(part));
     }
 }
@@ -61,7 +64,7 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
         std::copy_n(data.force, part.force.size(), part.force.begin());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const Grain<Dim>& grain = *(*part.members)[lane];
-            start_[size_t(part.first) + lane] = mark_[size_t(part.first) + lane] = grain.surface.position;
+            start_[part.index[lane]] = mark_[part.index[lane]] = grain.surface.position;
             const double R = grain.radius, mass = grain.density * R * R, shear = grain.law->shear_modulus(grain.parameters.data());
             const Vec<Dim> body = (gravity + grain.acceleration) / R, way = prediction(grain.motion.position) / R;
             const Vec<Dim> centre = (grain.motion.position - grain.origin) / R;
@@ -130,7 +133,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::eval
                 += std::pow(grain.radius, Dim) * (batch.per_lane[lane] + 0.5 * part.inertia[lane] * away);
             part.sound &= batch.per_lane[lanes + lane] > 0;
             Surface<Dim>& surface = grain.surface;
-            const auto& start = mark_[size_t(part.first) + lane];
+            const auto& start = mark_[part.index[lane]];
             double longest = 0;
             for (int p = 0; p < surface.count; ++p) {
                 double way = 0;
@@ -186,7 +189,7 @@ template <int Dim> void ImplicitGrains<Dim>::mark()
             Surface<Dim>& surface = (*part.members)[lane]->surface;
             surface.travel += part.farthest * surface.size;
             surface.bound();
-            mark_[size_t(part.first) + lane] = surface.position;
+            mark_[part.index[lane]] = surface.position;
         }
         part.farthest = 0;
     });
@@ -202,7 +205,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
         std::fill(part.loads.begin(), part.loads.end(), 0.0);
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const double unit = std::pow((*part.members)[lane]->radius, 1 - Dim);
-            const auto& forces = contact_forces[size_t(part.first) + lane];
+            const auto& forces = contact_forces[part.index[lane]];
             for (int p = 0; p < batch.mesh->surface_count(); ++p)
                 for (int k = part.pattern->surface_start[p]; k < part.pattern->surface_start[p + 1]; ++k)
                     for (int d = 0; d < Dim; ++d)
@@ -212,7 +215,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
         KernelData<Dim> data = batch.data();
         batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            Forces& sum = of_grain[size_t(part.first) + lane] = { 0, 0, 0, part.first + int(lane) };
+            Forces& sum = of_grain[part.index[lane]] = { 0, 0, 0, int(part.index[lane]) };
             for (int r = 0; r < part.pattern->rows; ++r)
                 for (int d = 0; d < Dim; ++d) {
                     const int i = part.pattern->master[r];
@@ -251,17 +254,17 @@ template <int Dim> void ImplicitGrains<Dim>::condense(const std::vector<double>&
         KernelData<Dim> data = batch.data();
         AlignedVector inertia(part.inertia);
         for (size_t lane = 0; lane < part.members->size(); ++lane)
-            inertia[lane] += damping[size_t(part.first) + lane];
+            inertia[lane] += damping[part.index[lane]];
         batch.law.stiffness[batch.wide()](data, part.pattern, inertia.data(), part.matrix.data());
         kernels.factorise[batch.wide()](data, part.pattern, part.matrix.data());
         kernels.compliance[batch.wide()](data, part.pattern, part.matrix.data(), room.data(), part.compliance.data());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const double unit = std::pow((*part.members)[lane]->radius, 2 - Dim);
-            auto& own = compliance_[size_t(part.first) + lane];
+            auto& own = compliance_[part.index[lane]];
             own.resize(size_t(points) * points * Dim * Dim);
             for (size_t k = 0; k < own.size(); ++k)
                 own[k] = unit * part.compliance[k * lanes + lane];
-            compliance_view_[size_t(part.first) + lane] = own.data();
+            compliance_view_[part.index[lane]] = own.data();
         }
     });
 }
@@ -271,7 +274,7 @@ template <int Dim> void ImplicitGrains<Dim>::interpolate_step(Part& part, const 
     const int lanes = part.batch->lanes;
     for (size_t lane = 0; lane < part.members->size(); ++lane) {
         const double R = (*part.members)[lane]->radius;
-        auto& field = way[size_t(part.first) + lane];
+        auto& field = way[part.index[lane]];
         std::fill(field.begin(), field.end(), 0.0);
         double longest = 0;
         for (int p = 0; p < part.batch->mesh->surface_count(); ++p) {
@@ -298,7 +301,7 @@ template <int Dim> void ImplicitGrains<Dim>::solve(SurfaceField& way, const Surf
         part.loads = part.rhs;
         for (size_t lane = 0; further && lane < part.members->size(); ++lane) {
             const double unit = std::pow((*part.members)[lane]->radius, 1 - Dim);
-            const auto& forces = (*further)[size_t(part.first) + lane];
+            const auto& forces = (*further)[part.index[lane]];
             for (int p = 0; p < batch.mesh->surface_count(); ++p)
                 for (int k = part.pattern->surface_start[p]; k < part.pattern->surface_start[p + 1]; ++k)
                     for (int d = 0; d < Dim; ++d)
@@ -322,8 +325,8 @@ template <int Dim> void ImplicitGrains<Dim>::slide(SurfaceField& way) const
     for (const Part& part : parts_)
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const auto& now = (*part.members)[lane]->surface.position;
-            const auto& start = start_[size_t(part.first) + lane];
-            auto& field = way[size_t(part.first) + lane];
+            const auto& start = start_[part.index[lane]];
+            auto& field = way[part.index[lane]];
             for (size_t i = 0; i < now.size(); ++i)
                 field[i] = now[i] - start[i];
         }
@@ -373,7 +376,7 @@ template <int Dim> void ImplicitGrains<Dim>::restore()
         std::copy(part.displacement.begin(), part.displacement.end(), part.batch->displacement.begin());
         motion_kernels<Dim>().extend[part.batch->wide()](part.batch->data());
         for (size_t lane = 0; lane < part.members->size(); ++lane)
-            (*part.members)[lane]->surface.position = start_[size_t(part.first) + lane];
+            (*part.members)[lane]->surface.position = start_[part.index[lane]];
     });
 }
 

@@ -82,7 +82,7 @@ private:
     struct Part {
         Batch<Dim>* batch;
         const std::vector<Grain<Dim>*>* members;
-        int first; ///< grain, among all
+        std::vector<size_t> index; ///< of the members among all grains
         const StiffnessPattern<Dim>* pattern;
         AlignedVector displacement, velocity, force; ///< at the start of the step
         AlignedVector base, step, stage;             ///< [master][Dim][lane]

@@ -27,8 +27,6 @@ namespace {
     };
 
     constexpr double fraction_to_boundary = 0.995;
-    /// Gaps below are looked at [radius of the smaller body]; looked for anew when a grain has moved by a quarter of it.
-    constexpr double ahead = 0.1;
 
 } // namespace
 
@@ -215,6 +213,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
 {
     using Contact = BarrierContact<Dim>;
     scene_ = &scene;
+    damping_ = 0.1;
     const auto predict = [&](const Vec<Dim>& x) { return scene.prediction(x, dt); };
     contacts = scene.contacts(ahead, dt);
     for (SurfaceField* field : { &way_, &forces_, &moved_ }) {

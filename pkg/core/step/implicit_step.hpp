@@ -29,6 +29,9 @@ public:
 /// both agree. Gaps, normals and feet are those of the places that the iterations try.
 template <int Dim> class ImplicitStep {
 public:
+    /// Gaps below are looked at [radius of the smaller body]; looked for anew when a grain has moved by a quarter of it.
+    static constexpr double ahead = 0.1;
+
     explicit ImplicitStep(Assembly<Dim>& assembly);
 
     struct Outcome {
@@ -71,7 +74,7 @@ private:
     SurfaceField way_, forces_, moved_;
     std::vector<int> points_;
     Eigen::VectorXd free_; ///< way along normals and tangents without changes of forces
-    double kappa_ = 0, damping_ = 0.1;
+    double kappa_ = 0, damping_ = 0;
     double least_force_ = 0; ///< forces below count as none: 1e-4 shear moduli times radius [N]
 };
 
