@@ -154,8 +154,9 @@ Real SoftImplicitIntegrator::elasticEnergy()
 
 boost::python::tuple SoftImplicitIntegrator::contactProblem() const
 {
-    throw std::runtime_error("SoftImplicitIntegrator solves contacts and deformation together, so there is no linear contact "
-                             "problem to show; take SoftIntegrator.");
+    throw std::runtime_error(
+        "SoftImplicitIntegrator solves contacts and deformation together, so there is no linear contact "
+        "problem to show; take SoftIntegrator.");
 }
 
 } // namespace yade

@@ -42,7 +42,7 @@ private:
     Search search_;
     double length_ = 0, elapsed_ = 0, fastest_ = 0; ///< of the step, of it so far [s]; speed of a rigid body [m/s]
     bool ahead_ = false, searched_ = false;
-    std::array<std::vector<Side>, 2> walls_;                ///< by axis, ascending, at the start of the step
+    std::array<std::vector<Side>, 2> walls_;               ///< by axis, ascending, at the start of the step
     std::map<const SoftGeom*, std::vector<double>> boxes_; ///< outlines at the start of the step [m]
 };
 

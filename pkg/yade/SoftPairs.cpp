@@ -136,7 +136,8 @@ void SoftPairs::load()
             body.impulse[2 * contact.point + d] += contact.impulse[d];
             if (contact.other >= 0)
                 for (int k = 0; k < softgrain::face_vertices<2>; ++k)
-                    problem.bodies[contact.other]->impulse[2 * contact.vertex[k] + d] -= contact.weight[k] * contact.impulse[d];
+                    problem.bodies[contact.other]->impulse[2 * contact.vertex[k] + d]
+                        -= contact.weight[k] * contact.impulse[d];
         }
     }
 }

@@ -23,10 +23,12 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
         if (pattern->most_rows > StiffnessPattern<Dim>::row_limit)
             throw UserError("soft grain #" + std::to_string(assembly.members(b)[0]->id)
                             + ": its grid is too coarse for the implicit scheme; give more points.");
-        Part part { &batch, &assembly.members(b), {}, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true };
+        Part part {
+            &batch, &assembly.members(b), {}, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true
+        };
         const size_t size = size_t(Dim) * pattern->rows * batch.lanes, points = size_t(batch.mesh->surface_count());
-        for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage, &part.centre, &part.lift,
-                                      &part.rhs, &part.loads })
+        for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage,
+                                      &part.centre, &part.lift, &part.rhs, &part.loads })
             field->resize(size);
         part.inertia.assign(size_t(batch.lanes), 1);
         part.matrix.resize(size_t(pattern->block_count()) * Dim * Dim * batch.lanes);
@@ -65,22 +67,22 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const Grain<Dim>& grain = *(*part.members)[lane];
             start_[part.index[lane]] = mark_[part.index[lane]] = grain.surface.position;
-            const double R = grain.radius, mass = grain.density * R * R, shear = grain.law->shear_modulus(grain.parameters.data());
+            const double R = grain.radius, mass = grain.density * R * R,
+                         shear = grain.law->shear_modulus(grain.parameters.data());
             const Vec<Dim> body = (gravity + grain.acceleration) / R, way = prediction(grain.motion.position) / R;
             const Vec<Dim> centre = (grain.motion.position - grain.origin) / R;
             part.inertia[lane] = settings.quasistatic ? settings.regularisation * shear : mass / (theta * theta * dt * dt);
             for (int i = 0; i < batch.mesh->master_count; ++i) {
                 const Vec<Dim> x = batch.mesh->node_position[i]
-                    + Vec<Dim>(Eigen::Map<const Vec<Dim>, 0, Eigen::InnerStride<>>(&part.displacement[size_t(i) * Dim * lanes + lane],
-                                                                                  Eigen::InnerStride<>(lanes)));
+                    + Vec<Dim>(Eigen::Map<const Vec<Dim>, 0, Eigen::InnerStride<>>(
+                        &part.displacement[size_t(i) * Dim * lanes + lane], Eigen::InnerStride<>(lanes)));
                 const Vec<Dim> load = body + grain.spin_acceleration * (x - centre);
                 for (int d = 0; d < Dim; ++d) {
                     const size_t k = (size_t(i) * Dim + d) * lanes + lane;
                     part.lift[k] = mass * load[d] / part.inertia[lane] * (settings.quasistatic ? 1 : 1 / theta);
                     part.centre[k] = part.displacement[k]
-                        + (settings.quasistatic
-                               ? way[d]
-                               : dt * part.velocity[k]
+                        + (settings.quasistatic ? way[d]
+                                                : dt * part.velocity[k]
                                    + theta * (1 - theta) * dt * dt * part.force[k] * batch.mesh->inverse_mass[i] / mass);
                 }
             }
@@ -129,8 +131,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::eval
                     const double apart = batch.displacement[k] - part.centre[k] - part.lift[k];
                     away += batch.mesh->node_mass[i] * apart * apart;
                 }
-            part.potential
-                += std::pow(grain.radius, Dim) * (batch.per_lane[lane] + 0.5 * part.inertia[lane] * away);
+            part.potential += std::pow(grain.radius, Dim) * (batch.per_lane[lane] + 0.5 * part.inertia[lane] * away);
             part.sound &= batch.per_lane[lanes + lane] > 0;
             Surface<Dim>& surface = grain.surface;
             const auto& start = mark_[part.index[lane]];

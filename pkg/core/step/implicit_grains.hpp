@@ -10,12 +10,12 @@ namespace softgrain {
 
 /// How an implicit step is to be taken.
 struct ImplicitSettings {
-    double theta = 1;              ///< weight of the end of the step, 1/2 to 1
-    bool quasistatic = false;      ///< no inertia
-    double tolerance = 1e-3;       ///< of the balance of forces, and of the contact residual
-    double regularisation = 0.02;  ///< quasi-static: stiffness per area that holds grains at their centre [shear modulus]
-    int most_iterations = 60;      ///< of Newton's method in a step
-    int most_stages = 30;          ///< of a quasi-static step
+    double theta = 1;             ///< weight of the end of the step, 1/2 to 1
+    bool quasistatic = false;     ///< no inertia
+    double tolerance = 1e-3;      ///< of the balance of forces, and of the contact residual
+    double regularisation = 0.02; ///< quasi-static: stiffness per area that holds grains at their centre [shear modulus]
+    int most_iterations = 60;     ///< of Newton's method in a step
+    int most_stages = 30;         ///< of a quasi-static step
     int threads = 1;
 };
 

@@ -6,15 +6,15 @@
 namespace softgrain {
 namespace {
 
-    constexpr double smallest = 1e-6;  // substep [step]
-    constexpr int swift = 25;          // iterations after which a substep went well
+    constexpr double smallest = 1e-6; // substep [step]
+    constexpr int swift = 25;         // iterations after which a substep went well
     constexpr double growth = 1.5;
 
 } // namespace
 
 template <int Dim>
-void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity, ImplicitScene<Dim>& scene,
-                               const Accepted& accepted)
+void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity,
+                               ImplicitScene<Dim>& scene, const Accepted& accepted)
 {
     report = {};
     for (double rest = dt; rest > 0;) {
@@ -26,8 +26,8 @@ void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, cons
             ++report.cuts;
             substep = h / 2;
             if (substep < smallest * dt)
-                throw SimulationError("the implicit step cannot go on: " + outcome.trouble + " even in a step of "
-                                      + shown(h) + " s.");
+                throw SimulationError("the implicit step cannot go on: " + outcome.trouble + " even in a step of " + shown(h)
+                                      + " s.");
             continue;
         }
         ++report.substeps;

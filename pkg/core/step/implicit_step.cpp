@@ -27,6 +27,8 @@ namespace {
     };
 
     constexpr double fraction_to_boundary = 0.995;
+    constexpr double most_penetration = 1e-5; ///< [radius of the smaller body]
+    constexpr int most_firmer = 8;
 
 } // namespace
 
@@ -40,7 +42,7 @@ ImplicitStep<Dim>::ImplicitStep(Assembly<Dim>& assembly)
 }
 
 /// Feet, normals, gaps and slides at the grains' places.
-template <int Dim> bool ImplicitStep<Dim>::locate()
+template <int Dim> void ImplicitStep<Dim>::locate()
 {
     grains_.slide(way_);
     for (auto& contact : contacts) {
@@ -59,10 +61,17 @@ template <int Dim> bool ImplicitStep<Dim>::locate()
         }
         if (contact.friction > 0) contact.slide = (difference(contact, way_) - contact.drive).dot(contact.tangent());
     }
-    return true;
 }
 
-template <int Dim> void ImplicitStep<Dim>::start_values(double)
+template <int Dim> void ImplicitStep<Dim>::look_or_locate(double dt)
+{
+    if (grains_.farthest() > ahead / 4)
+        renew_contacts(dt);
+    else
+        locate();
+}
+
+template <int Dim> void ImplicitStep<Dim>::start_values()
 {
     // how much the guess misses, and the force that goes with it
     double missed = 0, size = 0, force = 0;
@@ -169,7 +178,8 @@ SurfaceField& ImplicitStep<Dim>::gather(SurfaceField& field, double BarrierConta
         const Vec<Dim> force = contact.*normal * contact.normal + contact.*shear * contact.tangent();
         Eigen::Map<Vec<Dim>>(&field[size_t(contact.body)][size_t(Dim) * contact.point]) += force;
         for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
-            Eigen::Map<Vec<Dim>>(&field[size_t(contact.other)][size_t(Dim) * contact.vertex[k]]) -= contact.weight[k] * force;
+            Eigen::Map<Vec<Dim>>(&field[size_t(contact.other)][size_t(Dim) * contact.vertex[k]])
+                -= contact.weight[k] * force;
     }
     return field;
 }
@@ -181,7 +191,8 @@ template <int Dim> void ImplicitStep<Dim>::solve_contacts(double kappa, const Ei
     for (size_t c = 0; c < contacts.size(); ++c) {
         const auto& contact = contacts[c];
         const int row = system_.row(int(c));
-        b[row] = (kappa - correction[Eigen::Index(c)]) / contact.force - contact.slack - (contact.gap - contact.slack) - free_[row];
+        b[row] = (kappa - correction[Eigen::Index(c)]) / contact.force - contact.slack - (contact.gap - contact.slack)
+            - free_[row];
         if (contact.friction > 0) {
             const double bound = contact.friction * contact.force;
             const double slope = Friction::slope_for(contact.shear, contact.slide, bound, kappa_);
@@ -194,7 +205,8 @@ template <int Dim> void ImplicitStep<Dim>::solve_contacts(double kappa, const Ei
         const int row = system_.row(int(c));
         contact.force_step = change[row];
         contact.shear_step = contact.friction > 0 ? change[row + 1] : 0;
-        contact.slack_step = (kappa - correction[Eigen::Index(c)] - contact.slack * change[row]) / contact.force - contact.slack;
+        contact.slack_step
+            = (kappa - correction[Eigen::Index(c)] - contact.slack * change[row]) / contact.force - contact.slack;
     }
 }
 
@@ -207,120 +219,87 @@ double ImplicitStep<Dim>::largest_share(double BarrierContact<Dim>::*value, doub
     return share;
 }
 
-template <int Dim>
-typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const ImplicitSettings& settings,
-                                                               const Vec<Dim>& gravity, ImplicitScene<Dim>& scene)
+/// Room for the values of the surfaces, and the grains at the best of three guesses: as they are, going on at their
+/// velocities, or moving with the walls.
+template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& gravity)
 {
-    using Contact = BarrierContact<Dim>;
-    scene_ = &scene;
-    damping_ = 0.1;
-    const auto predict = [&](const Vec<Dim>& x) { return scene.prediction(x, dt); };
-    contacts = scene.contacts(ahead, dt);
-    for (SurfaceField* field : { &way_, &forces_, &moved_ }) {
-        field->resize(scene.bodies.size());
-        for (size_t b = 0; b < field->size(); ++b)
-            (*field)[b].assign(size_t(Dim) * scene.bodies[b]->count, 0);
-    }
+    contacts = scene_->contacts(ahead, dt);
     points_.clear();
-    for (const Surface<Dim>* body : scene.bodies)
-        points_.push_back(body->count);
-    grains_.begin(dt, settings, gravity, predict);
-    system_.analyse(contacts, int(scene.bodies.size()));
-    const auto condense = [&] {
-        std::vector<double> damping(assembly_.grains().size(), 0);
-        for (const auto& contact : contacts) {
-            damping[size_t(contact.body)] += contact.force;
-            if (contact.other >= 0 && size_t(contact.other) < damping.size()) damping[size_t(contact.other)] += contact.force;
-        }
-        for (size_t g = 0; g < damping.size(); ++g)
-            damping[g] *= damping_ / (2 * M_PI * assembly_.grains()[g]->radius);
-        grains_.condense(damping);
-        auto compliance = grains_.compliance();
-        compliance.resize(scene.bodies.size(), nullptr);
-        system_.assemble(contacts, compliance, points_);
-    };
+    for (SurfaceField* field : { &way_, &forces_, &moved_ })
+        field->resize(scene_->bodies.size());
+    for (size_t b = 0; b < scene_->bodies.size(); ++b) {
+        points_.push_back(scene_->bodies[b]->count);
+        for (SurfaceField* field : { &way_, &forces_, &moved_ })
+            (*field)[b].assign(size_t(Dim) * scene_->bodies[b]->count, 0);
+    }
+    grains_.begin(dt, settings_, gravity, [&](const Vec<Dim>& x) { return scene_->prediction(x, dt); });
+    system_.analyse(contacts, int(scene_->bodies.size()));
 
-    // where to start
-    typename ImplicitGrains<Dim>::Place place {};
     using Start = typename ImplicitGrains<Dim>::Start;
-    double best = 1e300;
-    Start best_start = Start::rest;
+    constexpr double too_far = 0.5; // radii
+    double least = 1e300;
+    Start best = Start::rest;
     for (Start start : { Start::rest, Start::velocity, Start::prediction }) {
         grains_.aim(start);
-        place = grains_.evaluate(1);
-        if (!place.sound || grains_.farthest() > 0.5) continue;
-        if (grains_.farthest() > ahead / 4) renew_contacts(dt);
-        locate();
-        double value = place.potential;
+        place_ = grains_.evaluate(1);
+        if (!place_.sound || grains_.farthest() > too_far) continue;
+        look_or_locate(dt);
+        double value = place_.potential;
         for (const auto& contact : contacts)
             value += 2 * contact.force * std::max(0.0, -contact.gap);
-        if (value < best) {
-            best = value;
-            best_start = start;
+        if (value < least) {
+            least = value;
+            best = start;
         }
     }
-    grains_.aim(best_start);
-    place = grains_.evaluate(1);
+    grains_.aim(best);
+    place_ = grains_.evaluate(1);
     grains_.settle();
-    if (grains_.farthest() > ahead / 4)
-        renew_contacts(dt);
-    else
-        locate();
+    look_or_locate(dt);
+}
 
-    Outcome outcome;
-    int begun = 0, backs = 0; // iteration at which the stage began; how often it was begun again
-    std::vector<Contact> at_stage;
-    const bool trace = std::getenv("IMPLICIT_TRACE");
-    for (;; ++outcome.iterations) {
-        if (outcome.iterations == 0) {
-            condense();
-            start_values(dt);
-            at_stage = contacts;
-        }
-        gather(forces_, &Contact::force, &Contact::shear);
-        const auto balance = grains_.load(forces_);
-        outcome.residual = contact_residual();
-        outcome.unbalanced
-            = balance.unbalanced / std::max({ balance.contact, settings.quasistatic ? 0 : balance.inertia, least_force_ });
-        outcome.penetration = 0;
-        double sum = 0, weighted = 0;
-        for (const auto& contact : contacts) {
-            outcome.penetration = std::max(outcome.penetration, -contact.gap / contact.size);
-            sum += contact.force;
-            weighted += contact.force * std::max(contact.gap, 0.0) / contact.size;
-        }
-        outcome.distance = sum > 0 ? weighted / sum : 0;
-        if (trace)
-            std::printf("   it %2d  unbalanced %.2e  residual %.2e  distance %.1e  penetration %.1e  kappa %.2e  potential %.6e\n",
-                        outcome.iterations, outcome.unbalanced, outcome.residual, outcome.distance, outcome.penetration, kappa_,
-                        place.potential);
-        if (outcome.unbalanced < settings.tolerance && outcome.residual < settings.tolerance && outcome.penetration < 1e-5) {
-            outcome.held = balance.inertia / std::max(balance.contact, least_force_);
-            if (!settings.quasistatic || outcome.stages > settings.most_stages
-                || balance.inertia < std::max(settings.tolerance * balance.contact, 0.1 * least_force_)) {
-                outcome.converged = true;
-                break;
-            }
-            grains_.recentre();
-            ++outcome.stages;
-            begun = outcome.iterations;
-            place = grains_.evaluate(0);
-            at_stage = contacts;
-        }
-        if (outcome.iterations >= begun + settings.most_iterations) {
-            outcome.trouble = "forces on soft grain #" + std::to_string(assembly_.grains()[size_t(balance.worst)]->id)
-                + " find no balance (" + shown(outcome.unbalanced, 2) + " of the contact forces; contact residual "
-                + shown(outcome.residual, 2) + ", penetration " + shown(outcome.penetration, 2) + " radii)";
-            if (!settings.quasistatic || ++backs > 8) break;
-            grains_.back_to_centre();
-            place = grains_.evaluate(0);
-            contacts = at_stage;
-            renew_contacts(dt);
-            begun = outcome.iterations;
-            continue;
-        }
-        if (outcome.iterations > 0) condense();
-        grains_.solve(moved_);
+/// Stiffnesses, and the contact system without its diagonal. Pressure stiffens the search direction of a grain where full
+/// steps have failed: its turning and its contacts' curvature are not in the tangent.
+template <int Dim> void ImplicitStep<Dim>::condense()
+{
+    std::vector<double> damping(assembly_.grains().size(), 0);
+    for (const auto& contact : contacts) {
+        damping[size_t(contact.body)] += contact.force;
+        if (contact.other >= 0 && size_t(contact.other) < damping.size()) damping[size_t(contact.other)] += contact.force;
+    }
+    for (size_t g = 0; g < damping.size(); ++g)
+        damping[g] *= damping_ / (2 * M_PI * assembly_.grains()[g]->radius);
+    grains_.condense(damping);
+    auto compliance = grains_.compliance();
+    compliance.resize(scene_->bodies.size(), nullptr);
+    system_.assemble(contacts, compliance, points_);
+}
+
+/// What the present place and forces are worth.
+template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitStep<Dim>::judge(Outcome& outcome)
+{
+    const auto balance = grains_.load(gather(forces_, &BarrierContact<Dim>::force, &BarrierContact<Dim>::shear));
+    const double scale = std::max({ balance.contact, settings_.quasistatic ? 0 : balance.inertia, least_force_ });
+    outcome.unbalanced = balance.unbalanced / scale;
+    outcome.held = settings_.quasistatic ? balance.inertia / scale : 0;
+    outcome.residual = contact_residual();
+    outcome.penetration = outcome.distance = 0;
+    double sum = 0;
+    for (const auto& contact : contacts) {
+        outcome.penetration = std::max(outcome.penetration, -contact.gap / contact.size);
+        outcome.distance += contact.force * std::max(contact.gap, 0.0) / contact.size;
+        sum += contact.force;
+    }
+    if (sum > 0) outcome.distance /= sum;
+    return balance;
+}
+
+/// Search direction: changes of forces and slacks, and the grains' way. False when the contact system is singular.
+template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome)
+{
+    using Contact = BarrierContact<Dim>;
+    grains_.solve(moved_);
+    if (!contacts.empty()) {
         Eigen::VectorXd diagonal(system_.rows());
         free_.resize(system_.rows());
         for (size_t c = 0; c < contacts.size(); ++c) {
@@ -329,84 +308,123 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             const Vec<Dim> way = difference(contact, moved_);
             diagonal[row] = contact.slack / contact.force;
             free_[row] = contact.normal.dot(way);
-            if (contact.friction > 0) {
-                diagonal[row + 1]
-                    = 1 / Friction::slope_for(contact.shear, contact.slide, contact.friction * contact.force, kappa_);
-                free_[row + 1] = contact.tangent().dot(way);
-            }
+            if (contact.friction == 0) continue;
+            diagonal[row + 1]
+                = 1 / Friction::slope_for(contact.shear, contact.slide, contact.friction * contact.force, kappa_);
+            free_[row + 1] = contact.tangent().dot(way);
         }
-        if (!contacts.empty()) {
-            if (!system_.factorise(diagonal)) {
-                outcome.trouble = "the contact system is singular";
-                break;
-            }
-            // predictor
-            Eigen::VectorXd correction = Eigen::VectorXd::Zero(Eigen::Index(contacts.size()));
-            solve_contacts(0, correction);
-            const double share_p = largest_share(&Contact::slack, &Contact::slack_step);
-            const double share_d = largest_share(&Contact::force, &Contact::force_step);
-            double now = 0, then = 0;
-            for (size_t c = 0; c < contacts.size(); ++c) {
-                const auto& contact = contacts[c];
-                now += contact.slack * contact.force;
-                then += (contact.slack + share_p * contact.slack_step) * (contact.force + share_d * contact.force_step);
-                correction[Eigen::Index(c)] = share_p * share_d * contact.slack_step * contact.force_step;
-            }
-            const double mean = now / double(contacts.size());
-            const double shrink = std::pow(then / now, 3);
-            double floor = 0;
-            for (const auto& contact : contacts)
-                floor += contact.force * contact.size * 1e-6 / double(contacts.size());
-            if (outcome.residual > 0.5 * settings.tolerance) floor *= 1e-3;
-            kappa_ = std::max(floor, mean * std::clamp(shrink, 1e-2, 1.0));
-            solve_contacts(kappa_, correction);
+        if (!system_.factorise(diagonal)) return false;
+        // Mehrotra 1992: how far kappa could fall at once says how far it is taken down
+        Eigen::VectorXd correction = Eigen::VectorXd::Zero(Eigen::Index(contacts.size()));
+        solve_contacts(0, correction);
+        const double primal = largest_share(&Contact::slack, &Contact::slack_step),
+                     dual = largest_share(&Contact::force, &Contact::force_step);
+        double now = 0, then = 0, floor = 0;
+        for (size_t c = 0; c < contacts.size(); ++c) {
+            const auto& contact = contacts[c];
+            now += contact.slack * contact.force / double(contacts.size());
+            then += (contact.slack + primal * contact.slack_step) * (contact.force + dual * contact.force_step)
+                / double(contacts.size());
+            floor += contact.force * contact.size / double(contacts.size());
+            correction[Eigen::Index(c)] = primal * dual * contact.slack_step * contact.force_step;
         }
-        gather(forces_, &Contact::force_step, &Contact::shear_step);
-        grains_.solve(moved_, &forces_);
+        floor *= settings_.tolerance * (outcome.residual > 0.5 * settings_.tolerance ? 1e-6 : 1e-3);
+        kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), 1e-2, 1.0));
+        solve_contacts(kappa_, correction);
+    }
+    grains_.solve(moved_, &gather(forces_, &Contact::force_step, &Contact::shear_step));
+    return true;
+}
 
-        const double share_d = largest_share(&Contact::force, &Contact::force_step);
-        double share = largest_share(&Contact::slack, &Contact::slack_step);
-        share = std::min(share, ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
-        const double before = merit(place.potential);
-        const std::vector<Contact> saved = contacts;
-        int cuts = 0;
-        for (;; ++cuts, share *= 0.5) {
-            place = grains_.evaluate(share);
-            if (place.sound) {
-                for (size_t c = 0; c < contacts.size(); ++c)
-                    contacts[c].slack = saved[c].slack + share * saved[c].slack_step;
-                locate();
-                const double after = merit(place.potential);
-                if (after < before + 1e-9 * (std::abs(before) + least_force_ * 1e-3) || cuts > 6) break;
-            }
-            contacts = saved;
-            if (cuts > 30) break;
+/// Goes along the search direction as far as slacks stay positive, no point inverts and the merit does not grow. False when
+/// there is no such place.
+template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
+{
+    using Contact = BarrierContact<Dim>;
+    constexpr int most_cuts = 6; // of a merit that may err: the direction is one of descent but for friction's bounds
+    const double dual = largest_share(&Contact::force, &Contact::force_step);
+    double share = std::min(largest_share(&Contact::slack, &Contact::slack_step),
+                            ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
+    const double before = merit(place_.potential), noise = 1e-9 * (std::abs(before) + 1e-3 * least_force_);
+    const std::vector<Contact> start = contacts;
+    int cuts = 0;
+    for (;; ++cuts, share /= 2) {
+        place_ = grains_.evaluate(share);
+        if (place_.sound) {
+            for (auto& contact : contacts)
+                contact.slack += share * contact.slack_step;
+            locate();
+            if (merit(place_.potential) < before + noise || cuts > most_cuts) break;
         }
-        damping_ = cuts > 0 ? std::clamp(4 * damping_, 0.05, 4.0) : 0.8 * damping_;
-        if (trace) std::printf("       share %.2e dual %.2e cuts %d reach %.2e\n", share, share_d, cuts, grains_.reach_of_step());
-        if (!place.sound) {
-            outcome.trouble = "a material point would turn inside out";
-            break;
-        }
-        grains_.settle();
-        for (auto& contact : contacts) {
-            contact.force += share_d * contact.force_step;
-            contact.shear += share_d * contact.shear_step;
-            const double most = 0.999 * contact.friction * contact.force;
-            contact.shear = std::clamp(contact.shear, -most, most);
-        }
-        if (grains_.farthest() > ahead / 4) renew_contacts(dt);
+        contacts = start;
+        if (cuts > 5 * most_cuts) return false;
     }
-    if (!outcome.converged) {
-        grains_.restore();
-        return outcome;
+    grains_.settle();
+    for (auto& contact : contacts) {
+        contact.force += dual * contact.force_step;
+        const double most = 0.999 * contact.friction * contact.force;
+        contact.shear = std::clamp(contact.shear + dual * contact.shear_step, -most, most);
     }
-    outcome.dissipated = grains_.accept();
-    fill_problem(dt, settings);
+    damping_ = cuts > 0 ? std::clamp(4 * damping_, 0.05, 4.0) : 0.8 * damping_;
+    if (grains_.farthest() > ahead / 4) renew_contacts(dt);
+    return true;
+}
+
+template <int Dim>
+typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const ImplicitSettings& settings,
+                                                               const Vec<Dim>& gravity, ImplicitScene<Dim>& scene)
+{
+    scene_ = &scene;
+    settings_ = settings;
+    damping_ = 0.1;
+    begin(dt, gravity);
+    condense();
+    start_values();
+    Outcome outcome;
+    int last = settings.most_iterations, firmer = 0; // iteration to end at; how often grains had to be held more firmly
+    std::vector<BarrierContact<Dim>> held = contacts;
+    for (;; ++outcome.iterations) {
+        const auto balance = judge(outcome);
+        const bool touching = outcome.residual < settings.tolerance && outcome.penetration < most_penetration;
+        const bool free = outcome.held * std::max(balance.contact, least_force_)
+            < std::max(settings.tolerance * balance.contact, 0.1 * least_force_);
+        if (touching && outcome.unbalanced < settings.tolerance
+            && (!settings.quasistatic || free || outcome.stages >= settings.most_stages)) {
+            outcome.converged = true;
+            outcome.dissipated = grains_.accept();
+            fill_problem(dt);
+            return outcome;
+        }
+        if (settings.quasistatic && touching && !free && outcome.stages < settings.most_stages
+            && outcome.unbalanced < std::max(settings.tolerance, 0.1 * outcome.held)) {
+            grains_.recentre();
+            place_ = grains_.evaluate(0);
+            held = contacts;
+            ++outcome.stages;
+            last = outcome.iterations + settings.most_iterations;
+            judge(outcome);
+        }
+        bool sound = outcome.iterations < last;
+        if (sound) {
+            if (outcome.iterations > 0) condense();
+            sound = find_direction(outcome) && take_direction(dt);
+        }
+        if (sound) continue;
+        outcome.trouble = "forces on soft grain #" + std::to_string(assembly_.grains()[size_t(balance.worst)]->id)
+            + " find no balance (" + shown(outcome.unbalanced, 2) + " of the contact forces; contact residual "
+            + shown(outcome.residual, 2) + ", penetration " + shown(outcome.penetration, 2) + " radii)";
+        if (!settings.quasistatic || ++firmer > most_firmer) break;
+        grains_.back_to_centre();
+        place_ = grains_.evaluate(0);
+        contacts = held;
+        renew_contacts(dt);
+        last = outcome.iterations + settings.most_iterations;
+    }
+    grains_.restore();
     return outcome;
 }
 
-template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt, const ImplicitSettings& settings)
+template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
 {
     grains_.slide(way_);
     problem.bodies = scene_->bodies;
@@ -417,7 +435,7 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt, const Implici
             surface.velocity[i] = surface.velocity_before[i] = way_[g][i] / dt;
     }
     const double stiffness = mean_stiffness();
-    const double length = (settings.quasistatic ? 1 : settings.theta) * dt;
+    const double length = (settings_.quasistatic ? 1 : settings_.theta) * dt;
     for (const auto& from : contacts) {
         Contact<Dim> contact;
         contact.body = from.body;

@@ -36,15 +36,15 @@ public:
 
     struct Outcome {
         bool converged = false;
-        std::string trouble;      ///< why not
-        int iterations = 0;       ///< of Newton's method
-        int stages = 1;           ///< quasi-static: places that the grains were held at
-        double held = 0;          ///< quasi-static: what still holds them, over contact forces
-        double residual = 0;      ///< of the contacts, Siconos's measure
-        double unbalanced = 0;    ///< forces that lack balance over contact forces
-        double distance = 0;      ///< mean gap, weighted by the forces [radius of the smaller body]
-        double penetration = 0;   ///< deepest [radius of the smaller body]
-        double dissipated = 0;    ///< by the scheme [J]
+        std::string trouble;    ///< why not
+        int iterations = 0;     ///< of Newton's method
+        int stages = 1;         ///< quasi-static: places that the grains were held at
+        double held = 0;        ///< quasi-static: what still holds them, over contact forces
+        double residual = 0;    ///< of the contacts, Siconos's measure
+        double unbalanced = 0;  ///< forces that lack balance over contact forces
+        double distance = 0;    ///< mean gap, weighted by the forces [radius of the smaller body]
+        double penetration = 0; ///< deepest [radius of the smaller body]
+        double dissipated = 0;  ///< by the scheme [J]
     };
     /// Moves the grains by a step; leaves them at its start when it does not converge. After success `contacts` holds the
     /// contact forces, and velocities and start values for `Assembly::renew` are set.
@@ -55,22 +55,29 @@ public:
     ContactProblem<Dim> problem;
 
 private:
-    struct Merit;
-    bool locate();
-    void start_values(double dt);
+    void begin(double dt, const Vec<Dim>& gravity);
+    void locate();
+    void look_or_locate(double dt);
     void renew_contacts(double dt);
+    void start_values();
+    void condense();
+    typename ImplicitGrains<Dim>::Forces judge(Outcome& outcome);
+    bool find_direction(const Outcome& outcome);
+    bool take_direction(double dt);
     double merit(double potential) const;
     double contact_residual() const;
     double mean_stiffness() const;
     SurfaceField& gather(SurfaceField& field, double BarrierContact<Dim>::*normal, double BarrierContact<Dim>::*shear) const;
     void solve_contacts(double kappa, const Eigen::VectorXd& correction);
     double largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const;
-    void fill_problem(double dt, const ImplicitSettings& settings);
+    void fill_problem(double dt);
 
     Assembly<Dim>& assembly_;
     ImplicitGrains<Dim> grains_;
     CondensedContacts<Dim> system_;
     ImplicitScene<Dim>* scene_ = nullptr;
+    ImplicitSettings settings_;
+    typename ImplicitGrains<Dim>::Place place_ {};
     SurfaceField way_, forces_, moved_;
     std::vector<int> points_;
     Eigen::VectorXd free_; ///< way along normals and tangents without changes of forces

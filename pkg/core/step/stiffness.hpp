@@ -9,9 +9,10 @@ namespace softgrain {
 /// Kernels with the stiffness of a batch; see stiffness_kernel.hpp.
 struct StiffnessKernels {
     using Pattern = const StiffnessPattern<2>*;
-    KernelPair<2, Pattern, double*> factorise;           ///< in place
-    KernelPair<2, Pattern, double*, double*> solve;      ///< with the factor: a vector, in place
-    KernelPair<2, Pattern, double*, double*, double*> compliance; ///< with the factor: room, then the compliance of the surface
+    KernelPair<2, Pattern, double*> factorise;      ///< in place
+    KernelPair<2, Pattern, double*, double*> solve; ///< with the factor: a vector, in place
+    KernelPair<2, Pattern, double*, double*, double*>
+        compliance; ///< with the factor: room, then the compliance of the surface
 };
 
 const StiffnessKernels& stiffness_kernels();

@@ -78,7 +78,8 @@ template <int Dim, class Law> struct Stiffness {
                             entry[i][j] = weighted[points][i] * mean[b][j];
 #pragma GCC unroll 4
                     for (int q = 0; q < points; ++q) {
-                        const double *ga = gradient + (q * share.rows + a) * Dim, *gb = gradient + (q * share.rows + b) * Dim;
+                        const double *ga = gradient + (q * share.rows + a) * Dim,
+                                     *gb = gradient + (q * share.rows + b) * Dim;
                         same += even[q] * (ga[0] * gb[0] + ga[1] * gb[1]);
                         cross += odd[q] * (ga[0] * gb[1] - ga[1] * gb[0]);
                         for (int i = 0; i < Dim; ++i)
@@ -145,7 +146,8 @@ struct Factorise {
 /// x <- K^-1 x.
 struct Solve {
     template <class T, int L>
-    static SOFTGRAIN_INLINE void run(const KernelData<2>&, const StiffnessPattern<2>* pattern, double* matrix, double* vector)
+    static SOFTGRAIN_INLINE void run(const KernelData<2>&, const StiffnessPattern<2>* pattern, double* matrix,
+                                     double* vector)
     {
         const auto K = field<T, L>(matrix), x = field<T, L>(vector);
         for (int r = 0; r < pattern->rows; ++r) {

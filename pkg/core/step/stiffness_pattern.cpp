@@ -19,7 +19,8 @@ namespace {
         (hi - lo).maxCoeff(&longest);
         std::vector<int> order(mesh.master_count);
         std::iota(order.begin(), order.end(), 0);
-        const auto column = [&](int i) { return std::lround((mesh.node_position[i][longest] - lo[longest]) / mesh.cell_width); };
+        const auto column
+            = [&](int i) { return std::lround((mesh.node_position[i][longest] - lo[longest]) / mesh.cell_width); };
         std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
             if (column(i) != column(j)) return column(i) < column(j);
             return mesh.node_position[i].sum() < mesh.node_position[j].sum();
@@ -29,7 +30,8 @@ namespace {
 
 } // namespace
 
-template <int Dim> StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh)
+template <int Dim>
+StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh)
     : rows(mesh.master_count)
     , row_of(rows)
     , master(along_longest_side(mesh))

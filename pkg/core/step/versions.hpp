@@ -14,8 +14,7 @@ inline InstructionSet instruction_set()
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")
         && __builtin_cpu_supports("avx512bw"))
         return InstructionSet::avx512;
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? InstructionSet::avx2
-                                                                           : InstructionSet::plain;
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? InstructionSet::avx2 : InstructionSet::plain;
 }
 
 // The same arrays from a further lane on; what all lanes share stays what it is.
@@ -35,8 +34,7 @@ template <int Dim> KernelData<Dim> from_lane(KernelData<Dim> data, int lane)
 template <class Kernel, int Dim, class... Arguments> struct Versions {
     using Function = void (*)(const KernelData<Dim>&, Arguments...);
 
-    __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(const KernelData<Dim>& data,
-                                                                       Arguments... arguments)
+    __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(const KernelData<Dim>& data, Arguments... arguments)
     {
         Kernel::template run<Lanes<8>::Value, 8>(data, arguments...);
     }

@@ -74,8 +74,8 @@ public:
 private:
     std::optional<Assembly<2>> assembly_;
     std::optional<ImplicitRun<2>> run_;
-    std::vector<PairContacts<2>> pairs_;         ///< of i < j
-    std::vector<PlaneContacts<2>> plane_pairs_;  ///< [plane][grain]
+    std::vector<PairContacts<2>> pairs_;        ///< of i < j
+    std::vector<PlaneContacts<2>> plane_pairs_; ///< [plane][grain]
     std::vector<ContactPoint<2>*> source_;
     std::vector<size_t> plane_of_;
 
