@@ -23,14 +23,16 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
         if (pattern->most_rows > StiffnessPattern<Dim>::row_limit)
             throw UserError("soft grain #" + std::to_string(assembly.members(b)[0]->id)
                             + ": its grid is too coarse for the implicit scheme; give more points.");
-        Part part {
-            &batch, &assembly.members(b), {}, pattern.get(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, true
-        };
+        Part part;
+        part.batch = &batch;
+        part.members = &assembly.members(b);
+        part.pattern = pattern.get();
         const size_t size = size_t(Dim) * pattern->rows * batch.lanes, points = size_t(batch.mesh->surface_count());
         for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage,
                                       &part.centre, &part.lift, &part.rhs, &part.loads })
             field->resize(size);
         part.inertia.assign(size_t(batch.lanes), 1);
+        part.energy.resize(size_t(batch.lanes));
         part.matrix.resize(size_t(pattern->block_count()) * Dim * Dim * batch.lanes);
         part.compliance.resize(points * points * Dim * Dim * batch.lanes);
         for (const Grain<Dim>* grain : *part.members)
@@ -64,6 +66,7 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
         KernelData<Dim> data = batch.data();
         batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
         std::copy_n(data.force, part.force.size(), part.force.begin());
+        batch.law.energy[batch.wide()](data, part.energy.data(), batch.per_lane.data());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const Grain<Dim>& grain = *(*part.members)[lane];
             start_[part.index[lane]] = mark_[part.index[lane]] = grain.surface.position;
@@ -333,32 +336,34 @@ template <int Dim> void ImplicitGrains<Dim>::slide(SurfaceField& way) const
         }
 }
 
-// For a linear force the theta scheme loses (theta - 1/2) (|v' - v|^2_m - (f' - f) . (u' - u)); quasi-static steps lose
-// besides what the regularisation takes.
+// For a linear force the theta scheme loses (theta - 1/2) (|v' - v|^2_m - (f' - f) . (u' - u)).
 template <int Dim> double ImplicitGrains<Dim>::accept()
 {
     std::vector<double> lost(parts_.size());
     each_part([&](Part& part) {
         Batch<Dim>& batch = *part.batch;
         const int lanes = batch.lanes;
-        const double theta = settings_.quasistatic ? 1 : settings_.theta;
+        const bool rest = settings_.quasistatic;
+        const double theta = rest ? 1 : settings_.theta;
         KernelData<Dim> data = batch.data();
         batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
+        if (rest) batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + lanes);
         double sum = 0;
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const Grain<Dim>& grain = *(*part.members)[lane];
             const double mass = grain.density * grain.radius * grain.radius;
-            double of_grain = 0;
+            double of_grain = rest ? part.energy[lane] - batch.per_lane[lane] : 0;
             for (int i = 0; i < batch.mesh->master_count; ++i)
                 for (int d = 0; d < Dim; ++d) {
                     const size_t k = (size_t(i) * Dim + d) * lanes + lane;
                     const double way = batch.displacement[k] - part.displacement[k], m = batch.mesh->node_mass[i];
                     const double v = (way / dt_ - (1 - theta) * part.velocity[k]) / theta, gain = v - part.velocity[k];
-                    of_grain -= (theta - 0.5) * (data.force[k] - part.force[k]) * way;
-                    if (settings_.quasistatic)
-                        of_grain += part.inertia[lane] * m * (batch.displacement[k] - part.centre[k]) * way;
+                    if (rest)
+                        of_grain += way
+                            * (part.loads[(size_t(part.pattern->row_of[i]) * Dim + d) * lanes + lane]
+                               + part.inertia[lane] * m * part.lift[k]);
                     else
-                        of_grain += (theta - 0.5) * mass * m * gain * gain;
+                        of_grain += (theta - 0.5) * (mass * m * gain * gain - (data.force[k] - part.force[k]) * way);
                     batch.velocity[k] = v;
                 }
             sum += std::pow(grain.radius, Dim) * of_grain;

@@ -73,7 +73,8 @@ public:
     /// Way of the surfaces since the start of the step [m].
     void slide(SurfaceField& way) const;
 
-    /// Takes the last place as the end of the step; returns the energy that the scheme dissipated [J].
+    /// Takes the last place as the end of the step, under the contact forces of the last load; returns the energy that the
+    /// scheme dissipated [J]; quasi-static: all work of these forces and of loads that is not stored.
     double accept();
     /// Back to the start of the step.
     void restore();
@@ -88,10 +89,11 @@ private:
         AlignedVector base, step, stage;             ///< [master][Dim][lane]
         AlignedVector centre, lift;                  ///< the target without body forces, and what they add to it
         AlignedVector inertia;                       ///< [lane], 1 / (theta h)^2 in units of the stiffness [Pa]
-        AlignedVector rhs, loads;                    ///< [row][Dim][lane]
+        AlignedVector rhs, loads;                    ///< [row][Dim][lane]; loads: contact forces, or the search direction
+        AlignedVector energy;                        ///< elastic, at the start of the step, [lane] [J/m^Dim]
         AlignedVector matrix, compliance;
-        double potential, farthest;
-        bool sound;
+        double potential = 0, farthest = 0;
+        bool sound = true;
     };
     template <class Work> void each_part(const Work& work);
     void interpolate_step(Part& part, const AlignedVector& rows, SurfaceField& way) const;
