@@ -53,7 +53,7 @@ def make_scene(options):
     wall_material = O.materials.append(FrictMat(frictionAngle=math.atan(options.wall_friction), label="walls"))
     width = builders.widthOfSquareCloud(options.grains, options.diameters, options.solid_fraction)
     grains, height = softCloud(width, options.grains, options.diameters, options.solid_fraction, grain_material,
-                               options.points, options.seed)
+                               options.points, options.seed, formulation=options.formulation)
     O.bodies.append(grains)
     _, _, bottom, top = O.bodies.append(softBox(width, height, wall_material))
     box = {"width": width, "height": height, "bottom": bottom, "top": top}
@@ -67,7 +67,9 @@ def check(result, options):
     end, point = result["end"], result["jamming"]
     balance, depth = result["energy_residual_over_work"], result["deepest_penetration"]
     implicit = options.integrator == "implicit"
-    most_residual, most_depth = (2e-2, 1e-4) if implicit else (2e-3, 5e-3)
+    # implicit steps are long, and grids laid anew do not conserve energy
+    most_residual = 2e-2 if implicit or options.formulation == "updated" else 2e-3
+    most_depth = 1e-4 if implicit else 5e-3
     checks = [(f"energy residual below {most_residual:.1%} of the external work ({balance:.3%})", balance < most_residual),
               (f"penetration below {most_depth:.2%} of R ({depth:.4%})", depth < most_depth),
               (f"no point inverted (least J {end['min_J']:.3f})", end["min_J"] > 0),

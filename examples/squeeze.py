@@ -67,7 +67,8 @@ def make_scene(options):
     """The disc about the origin and its walls: dict of (body id, axis) by name; the longest implicit step [s]."""
     soft = O.materials.append(opt.make_material(options))
     rigid = O.materials.append(FrictMat(frictionAngle=math.atan(options.friction), label="walls"))
-    O.bodies.append(softDisc((0, 0), options.radius, soft, options.points, options.angle))
+    O.bodies.append(softDisc((0, 0), options.radius, soft, options.points, options.angle,
+                             formulation=options.formulation))
     walls = {}
     for name, axis, side in [("bottom", 1, -1), ("top", 1, 1), ("left", 0, -1), ("right", 0, 1)][:options.walls]:
         body = yade_wall(side * options.radius, axis=axis, sense=-side, material=rigid)

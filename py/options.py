@@ -161,24 +161,27 @@ def add_method(parser):
     group.add_argument("--theta", type=theta, default=1.0, metavar="THETA", help="implicit: weight of a step's end, 0.5 to 1")
     group.add_argument("--quasistatic", action="store_true", help="implicit, without inertia")
     group.add_argument("--formulation", choices=("total", "updated"), default="total",
-                       help="Lagrangian formulation; updated is not there yet")
+                       help="Lagrangian in the undeformed grain, or updated: state on the points, grid laid anew each step")
     group.add_argument("--dt", type=positive, default=None, metavar="S",
                        help="time step, the largest of implicit ones; None: chosen automatically")
 
 
 def refuse_what_is_not_there(options):
     """InputError for options that are announced but not there yet, or have no meaning together."""
-    if getattr(options, "formulation", "total") == "updated":
-        raise InputError("--formulation updated is not there yet: use total.")
     if options.quasistatic and options.integrator == "explicit":
         if "integrator" in options.given:
             raise InputError("--quasistatic goes without inertia, which --integrator explicit cannot: use implicit.")
         options.integrator = "implicit"
+    if options.formulation == "updated" and options.integrator == "implicit":
+        raise InputError("--formulation updated with --integrator implicit is not there yet: use total.")
 
 
 def choose_method(options, step):
     """The arguments of softEngines for the time integration. `step`: length of an implicit step that follows the loading
     well [s]. Resolves --integrator auto: prints what it picked and why."""
+    if options.integrator == "auto" and options.formulation == "updated":
+        options.integrator = "explicit"
+        print("--integrator auto: explicit, since --formulation updated is not there for implicit steps")
     if options.integrator == "auto":
         ratio = step / _explicit_step()
         options.integrator = "implicit" if options.quasistatic or ratio > STEPS_OF_AN_IMPLICIT_ONE else "explicit"

@@ -30,8 +30,16 @@ void SoftGrain::postLoad(SoftGrain&)
     equivalentRadius_ = NaN;
 }
 
+bool SoftGrain::updated() const
+{
+    if (formulation != "total" && formulation != "updated")
+        throw softgrain::UserError("SoftGrain: formulation = '" + formulation + "' is none; give 'total' or 'updated'.");
+    return formulation == "updated";
+}
+
 void SoftGrain::discretise()
 {
+    updated();
     if (points < 16 || points > 100000)
         throw softgrain::UserError("SoftGrain: points = " + std::to_string(points) + " has to lie between 16 and 100000.");
     if (!(surfaceSpacing >= 0.1 && surfaceSpacing <= 4))
@@ -46,8 +54,9 @@ void SoftGrain::discretise()
     resolution.points = points;
     resolution.surface_spacing = surfaceSpacing;
     resolution.node_threshold = nodeThreshold;
+    resolution.mean_dilatation = meanDilatation;
     resolution.offset = { gridOffset[0], gridOffset[1], 0 };
-    Key key { { double(points), surfaceSpacing, nodeThreshold, gridOffset[0], gridOffset[1] }, {} };
+    Key key { { double(points), surfaceSpacing, nodeThreshold, double(meanDilatation), gridOffset[0], gridOffset[1] }, {} };
     if (vertices.empty()) {
         if (!(radius > 1e-12 && radius < 1e6))
             throw softgrain::UserError("SoftGrain: radius = " + softgrain::shown(radius)

@@ -23,6 +23,8 @@ public:
         mesh();
         return equivalentRadius_;
     }
+    /// Throws softgrain::UserError.
+    bool updated() const;
     int pointCount() { return mesh()->point_count(); }
     int surfaceCount() { return mesh()->surface_count(); }
     Real area();
@@ -33,7 +35,8 @@ public:
             SoftGrain,
             Shape,
             "Soft grain in the xy-plane: a disc, or a simple closed polygon. Its continuum is discretised by material points on a background "
-            "grid of quadratic B-splines, one grid a grain, fixed in the undeformed grain (total-Lagrangian MPM). Belongs to a body with "
+            "grid of quadratic B-splines, one grid a grain, fixed in the undeformed grain (total-Lagrangian MPM) or laid anew in every step "
+            "(updated-Lagrangian MPM, see formulation). Belongs to a body with "
             ":yref:`SoftState` and a :yref:`SoftMat`; :yref:`softDisc` and :yref:`softPolygon` make one.",
             ((Real, radius, NaN, Attr::triggerPostLoad, "Radius of the undeformed disc [m]; not used with vertices."))(
                     (vector<Vector3r>,
@@ -48,6 +51,17 @@ public:
                      0,
                      Attr::triggerPostLoad,
                      "Grid nodes lighter than this follow their neighbours [mass of the heaviest node]; 0: 3 / points, but 0.03 to 0.05."))(
+                    (std::string,
+                     formulation,
+                     "total",
+                     Attr::triggerPostLoad,
+                     "'total': Lagrangian in the undeformed grain; 'updated': the points carry the state, the grid stands still in space."))(
+                    (bool,
+                     meanDilatation,
+                     true,
+                     Attr::triggerPostLoad,
+                     "Whether the points of a cell share one volume change, which cures the locking of nearly incompressible grains; false is "
+                     "for comparisons."))(
                     (Vector2r, gridOffset, Vector2r::Zero(), Attr::triggerPostLoad, "Shift of the grid under the grain [width of a grid cell].")),
             createIndex(),
             .def("pointCount", &SoftGrain::pointCount, "Number of material points [-].")

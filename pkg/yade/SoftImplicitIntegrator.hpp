@@ -47,7 +47,7 @@ public:
 
 protected:
     Real lookAhead() const override { return 1.5 * softgrain::ImplicitStep<2>::ahead; }
-    void assembled() override { run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_); }
+    void assembled() override;
     void advance(double dt) override;
     void requireSaneAttributes() const override;
     void requireStableStep() override { }

@@ -87,7 +87,7 @@ void SoftIntegrator::advance(double dt)
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
         pairs_.refuseLeaks(0.5); // between the contact points some is let pass
-        evaluate();
+        if (evaluatedStep_ != scene->iter) evaluate();
     } else if (minJ() < 0.9 * evaluatedJ_) // an impact shortens the stable step within a few steps
         evaluate();
     if (scene->trackEnergy) trackEnergies();
@@ -175,7 +175,7 @@ void SoftIntegrator::takeIn(const shared_ptr<Body>& body)
     soft_.states.push_back(state);
 }
 
-/// The limit is renewed every checkInterval steps; a SoftTimeStepper may be behind it by then.
+/// The limit is renewed every checkInterval steps; a SoftTimeStepper may be behind it.
 void SoftIntegrator::requireStableStep()
 {
     if (scene->dt <= criticalStep) return;
@@ -251,9 +251,8 @@ void SoftIntegrator::evaluate()
     if (!assembly_) return;
     assembly_->evaluate_stretch(threads());
     evaluatedJ_ = minJ();
-    criticalStep = std::numeric_limits<Real>::max();
-    for (SoftState* state : soft_.states)
-        criticalStep = std::min(criticalStep, SoftTimeStepper::criticalStepOf(state->grain));
+    evaluatedStep_ = scene->iter;
+    criticalStep = smallestCriticalStep_(assembly_->grains(), threads());
 }
 
 void SoftIntegrator::trackEnergies()

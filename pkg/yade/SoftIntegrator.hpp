@@ -9,6 +9,7 @@
 
 #include "solver/nlgs.hpp"
 #include "step/assembly.hpp"
+#include "step/critical_step.hpp"
 
 #include <memory>
 #include <mutex>
@@ -110,8 +111,10 @@ private:
     void finish(int grain, double dt);
 
     softgrain::NonlinearGaussSeidel<2> solver_;
+    softgrain::SmallestCriticalStep<2> smallestCriticalStep_;
     size_t interactionCount_ = 0; ///< in the last step
     Real evaluatedJ_ = 1;         ///< smallest J when the stable step was evaluated
+    long evaluatedStep_ = -1;     ///< and the step of it
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);

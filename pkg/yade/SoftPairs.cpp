@@ -12,12 +12,12 @@ namespace {
 void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching, bool goOn)
 {
     // The same order for every number of threads: by the first soft grain, and by the other body.
-    const auto key = [&](const TouchingPair& pair) {
-        return soft_.of(pair.id1) >= 0 ? std::minmax(pair.id1, pair.id2)
-                                       : std::pair<const int&, const int&>(pair.id2, pair.id1);
-    };
-    const auto before = [&](const TouchingPair& a, const TouchingPair& b) { return key(a) < key(b); };
-    if (!std::is_sorted(touching.begin(), touching.end(), before)) std::sort(touching.begin(), touching.end(), before);
+    std::vector<std::array<int, 3>> order; // the ids, and the place in `touching`
+    for (const TouchingPair& pair : touching) {
+        const bool swapped = soft_.of(pair.id1) < 0 || (soft_.of(pair.id2) >= 0 && pair.id2 < pair.id1);
+        order.push_back({ swapped ? pair.id2 : pair.id1, swapped ? pair.id1 : pair.id2, int(order.size()) });
+    }
+    std::sort(order.begin(), order.end());
 
     const std::vector<Pair> old = std::move(pairs_);
     pairs_.clear();
@@ -25,8 +25,8 @@ void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching
     problem.contacts.clear();
     for (SoftState* state : soft_.states)
         problem.bodies.push_back(&state->grain.surface);
-    for (TouchingPair& pair : touching)
-        take(scene, std::move(pair));
+    for (const auto& place : order)
+        take(scene, std::move(touching[place[2]]));
     if (!goOn) return;
     for (const Pair& known : old)
         for (Pair& pair : pairs_)

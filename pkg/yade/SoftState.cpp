@@ -59,12 +59,13 @@ void SoftState::prepare(const Body& body)
     try {
         fresh.mesh = shape->mesh();
         fresh.radius = shape->equivalentRadius();
+        if (shape->updated()) fresh.updated.emplace();
     } catch (const softgrain::UserError& error) {
         throw softgrain::UserError(whose(body.id) + ": " + error.what());
     }
     fresh.id = body.id;
     takeMaterial(body, fresh);
-    const bool loaded = !nodeDisplacement.empty();
+    const bool loaded = saved();
     const Vector3r shift = pos - savedPos, kick = vel - savedVel, turn = angVel - savedAngVel; // by hand since loading
     if (!loaded) {
         if (!pos.allFinite() || !vel.allFinite() || !angVel.allFinite())
@@ -84,16 +85,13 @@ void SoftState::prepare(const Body& body)
         refOri = ori;
         justPlaced = true;
     } else {
-        const size_t expected = 2 * size_t(fresh.mesh->master_count);
-        if (format != currentFormat || nodeDisplacement.size() != expected || nodeVelocity.size() != expected)
+        if (format != currentFormat || !takeSaved(fresh))
             throw softgrain::UserError(whose(body.id) + ": its saved state (format " + std::to_string(format) + ", "
-                                       + std::to_string(nodeDisplacement.size())
+                                       + std::to_string(nodeDisplacement.size() + pointState.size())
                                        + " values) is of another version of softgrain, which expects format "
-                                       + std::to_string(currentFormat) + " and " + std::to_string(expected)
-                                       + " values; load it with the version that saved it.");
-        fresh.origin = origin;
-        fresh.displacement = nodeDisplacement;
-        fresh.velocity = nodeVelocity;
+                                       + std::to_string(currentFormat) + " and " + std::to_string(fresh.mesh->master_count)
+                                       + " nodes, " + std::to_string(fresh.mesh->point_count())
+                                       + " points; load it with the version that saved it.");
         fresh.refresh();
         fresh.elastic_energy();
         fresh.surface.travel = travel;
@@ -109,10 +107,25 @@ void SoftState::prepare(const Body& body)
     }
 }
 
+/// Into a grain that has its discretisation; false when the numbers do not fit.
+bool SoftState::takeSaved(softgrain::Grain<2>& fresh) const
+{
+    fresh.origin = origin;
+    if (fresh.updated) {
+        fresh.updated->place(*fresh.mesh, softgrain::Mat<2>::Identity());
+        return fresh.updated->unpack(pointState);
+    }
+    fresh.displacement = nodeDisplacement;
+    fresh.velocity = nodeVelocity;
+    const size_t expected = 2 * size_t(fresh.mesh->master_count);
+    return nodeDisplacement.size() == expected && nodeVelocity.size() == expected;
+}
+
 bool SoftState::outdated(const Body& body) const
 {
     auto& shape = static_cast<SoftGrain&>(*body.shape);
-    if (shape.mesh() != grain.mesh || shape.equivalentRadius() != grain.radius)
+    if (shape.mesh() != grain.mesh || shape.equivalentRadius() != grain.radius
+        || shape.updated() != grain.updated.has_value())
         throw softgrain::UserError(
             whose(body.id)
             + ": its shape was changed, which a deformed grain cannot follow; erase the body and append a new one.");
@@ -211,7 +224,7 @@ void SoftState::publish()
 /// Has a grain, or gets it now if it was loaded.
 bool SoftState::runs()
 {
-    if (!prepared() && !nodeDisplacement.empty())
+    if (!prepared() && saved())
         for (const auto& body : *Omega::instance().getScene()->bodies)
             if (softStateOf(*body) == this) prepare(*body);
     return prepared();
@@ -236,6 +249,7 @@ void SoftState::preSave(SoftState&)
     grain.pull();
     nodeDisplacement = grain.displacement;
     nodeVelocity = grain.velocity;
+    if (grain.updated) pointState = grain.updated->packed();
     travel = grain.surface.travel;
 }
 

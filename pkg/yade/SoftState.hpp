@@ -11,7 +11,7 @@ namespace yade {
 
 class SoftState : public State {
 public:
-    static constexpr int currentFormat = 2; ///< of the saved fields
+    static constexpr int currentFormat = 3; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
     Real insideUntil = 0;    ///< travel of its surface up to which its bound surely holds it [m]
@@ -78,6 +78,12 @@ public:
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(
+                    (vector<Real>,
+                     pointState,
+                     ,
+                     Attr::hidden,
+                     "Of an updated-Lagrangian grain instead: positions, velocities, deformation gradients and their rates at the points, positions "
+                     "of the surface points, spin, in units of the radius."))(
                     (Vector3r, savedPos, Vector3r::Zero(), Attr::hidden, "What pos held when saved [m]."))(
                     (Vector3r, savedVel, Vector3r::Zero(), Attr::hidden, "What vel held when saved [m/s]."))(
                     (Vector3r, savedAngVel, Vector3r::Zero(), Attr::hidden, "What angVel held when saved [rad/s]."))(
@@ -131,6 +137,8 @@ private:
     } published, asked;                ///< by publish(), and by Python since
     shared_ptr<const Material> known_; ///< that the grain was set up with
 
+    bool saved() const { return !nodeDisplacement.empty() || !pointState.empty(); }
+    bool takeSaved(softgrain::Grain<2>& fresh) const;
     softgrain::Grain<2>& current();
     bool runs();
 };

@@ -3,21 +3,17 @@
 
 #include <core/TimeStepper.hpp>
 
-#include "step/assembly.hpp"
-
 namespace yade {
 
 class SoftTimeStepper : public TimeStepper {
 public:
     void computeTimeStep(Scene* scene) override;
-    /// Largest stable step of a grain as it is deformed now [s].
-    static Real criticalStepOf(const softgrain::Grain<2>& grain);
 
     YADE_CLASS_BASE_DOC_ATTRS_CTOR(
             SoftTimeStepper,
             TimeStepper,
-            "Keeps O.dt at safety times the largest stable step of the soft grains, 2/ω of their stiffest mode, which shrinks with the smallest "
-            "stretch as they are squeezed.",
+            "Keeps O.dt at safety times SoftIntegrator.criticalStep, the largest stable step of the soft grains: 2/ω of their stiffest mode as they "
+            "are deformed.",
             ((Real, safety, 0.8, , "Fraction of the stable step [-]; beyond 0.9 steps may turn unstable as grains deform.")),
             timeStepUpdateInterval = 50;);
 };

@@ -204,7 +204,7 @@ def blocked(checks):
 
     # a grain between one that is held and a wall that comes down on it
     for blocking in "xyZ", "yZ":
-        body = scene((0, {}), (5e-3, {}), walls=[(1.001e-3, -1)])
+        body = scene((0, {}), (5e-3, {}), walls=[(1.001e-3, -1)], safety=0.6)
         body.state.blockedDOFs = blocking
         O.bodies[2].state.vel = (0, -2, 0)
         largest = 0

@@ -4,6 +4,7 @@
 
 #include "manufactured.hpp"
 #include "step/assembly.hpp"
+#include "step/critical_step.hpp"
 
 #include <deque>
 #include <functional>

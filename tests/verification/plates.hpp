@@ -28,6 +28,7 @@ struct SqueezeCase {
     double speed = 0.1; ///< of each plate [m/s]
     double until = 0.4, window = 0.005;
     double radius = 1e-3;
+    bool updated = false; ///< in the updated-Lagrangian form
 };
 
 inline Squeeze squeeze(const SqueezeCase& c)
@@ -38,6 +39,7 @@ inline Squeeze squeeze(const SqueezeCase& c)
         GrainStart start;
         start.centre = Vec<2>(0, (2 * k + 1 - c.discs) * c.radius);
         start.angle = c.angle;
+        start.updated = c.updated;
         world.add(make_grain(mesh, c.material, start, c.radius));
     }
     const double half = c.discs * c.radius;

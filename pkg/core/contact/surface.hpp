@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "grid/discretisation.hpp"
+#include "grid/surface_operator.hpp"
 
 #include <vector>
 
@@ -22,7 +22,7 @@ template <int Dim> struct Surface {
     double ahead = 0;                                        ///< further look for contacts, of long steps [m]
     double size = 0;                                         ///< radius, or half the least width [m]
     double mobility = 0;                                     ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
-    const Discretisation<Dim>* mesh = nullptr;               ///< its Delassus operator; none for rigid bodies
+    const SurfaceOperator<Dim>* response = nullptr;          ///< its Delassus operator; none for rigid bodies
 
     void resize(int points)
     {

@@ -2,6 +2,7 @@
 #include "grid/discretisation.hpp"
 
 #include "grid/bspline.hpp"
+#include "grid/extrapolation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -151,16 +152,17 @@ template <int Dim> Discretisation<Dim>::Discretisation(const Outline<Dim>& outli
 {
     const Cells cells(outline, resolution, cells_for(outline, resolution));
     cell_width = cells.width;
-    place_points(cells);
+    node_threshold = resolution.threshold();
+    place_points(cells, resolution.mean_dilatation);
     place_surface(outline, cells, resolution.surface_spacing * cell_width);
-    bind_slaves(resolution.threshold() * *std::max_element(node_mass.begin(), node_mass.end()));
+    bind_slaves(node_threshold * *std::max_element(node_mass.begin(), node_mass.end()));
     for (double mass : node_mass)
         inverse_mass.push_back(1 / mass);
     average_gradients();
     build_delassus();
 }
 
-template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
+template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells, bool mean_dilatation)
 {
     std::map<typename Cells::Index, int, IndexLess<Dim>> node_of;
     int full_cell = -1; // where the gradients of full cells are
@@ -182,7 +184,8 @@ template <int Dim> void Discretisation<Dim>::place_points(const Cells& cells)
             by_cell[cells.cell_of(x)].push_back(x);
         }
         const bool full = cells.full[c];
-        regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume, full });
+        const double pointwise = !mean_dilatation ? 1 : full ? 0 : 0.8;
+        regions.push_back({ int(blocks.size()), int(by_cell.size()), region.volume, full, pointwise });
         for (const auto& [cell, positions] : by_cell) {
             const int in_block = int(positions.size());
             const bool known = full && full_cell >= 0;
@@ -262,31 +265,25 @@ template <int Dim> void Discretisation<Dim>::bind_slaves(double threshold)
         for (auto& node : entry.node)
             node = number[node];
 
-    // A slave is the linear extrapolation of near masters with the least weighted coefficients: c = W A G a,
-    // G = (A' W A)^-1, A the rows (1, x - x_slave), a = (1, 0 ...): the moving-least-squares value at the slave.
+    // A slave is the linear extrapolation of near masters.
     node_mass.assign(masses.begin(), masses.begin() + master_count);
     slave_row.push_back(0);
     for (int s = master_count; s < node_count(); ++s) {
         for (double reach = 2.3;; reach += 1) {
             std::vector<int> near;
+            std::vector<Vec<Dim>> places;
             for (int m = 0; m < master_count; ++m)
-                if ((node_position[m] - node_position[s]).norm() < reach * cell_width) near.push_back(m);
-            Eigen::MatrixXd A(near.size(), Dim + 1);
-            Eigen::VectorXd W(near.size());
-            for (size_t k = 0; k < near.size(); ++k) {
-                const Vec<Dim> apart = (node_position[near[k]] - node_position[s]) / cell_width;
-                A.row(k) << 1, apart.transpose();
-                W[k] = std::pow(apart.squaredNorm(), -2);
-            }
-            const Eigen::MatrixXd normal = A.transpose() * W.asDiagonal() * A;
-            const Eigen::FullPivLU<Eigen::MatrixXd> solver(normal);
-            if (int(near.size()) <= Dim || !solver.isInvertible() || solver.rcond() < 1e-4) {
+                if ((node_position[m] - node_position[s]).norm() < reach * cell_width) {
+                    near.push_back(m);
+                    places.push_back(node_position[m]);
+                }
+            std::vector<double> weights;
+            if (!extrapolate<Dim>(node_position[s], places, cell_width, weights)) {
                 if (reach > 100)
                     throw UserError("soft grain: the shape is too thin for its grid of cells " + shown(cell_width)
                                     + " radii wide; give more points.");
                 continue;
             }
-            const Eigen::VectorXd weights = W.asDiagonal() * A * solver.solve(Eigen::VectorXd::Unit(Dim + 1, 0));
             for (size_t k = 0; k < near.size(); ++k) {
                 if (std::abs(weights[k]) < 1e-14) continue;
                 links.push_back({ near[k], weights[k] });
@@ -328,41 +325,10 @@ template <int Dim> void Discretisation<Dim>::build_delassus()
                     if (slave == node) folded[p][master] += weight * share;
                 });
         }
-    delassus_row.push_back(0);
-    for (int p = 0; p < surface_count(); ++p) {
-        for (int q = 0; q < surface_count(); ++q) {
-            double value = 0;
-            for (const auto& [node, weight] : folded[p]) {
-                const auto other = folded[q].find(node);
-                if (other != folded[q].end()) value += weight * other->second / node_mass[node];
-            }
-            if (value == 0) continue;
-            delassus_column.push_back(q);
-            delassus_value.push_back(value);
-        }
-        delassus_row.push_back(int(delassus_column.size()));
-    }
-    const int n = surface_count();
-    for (int segment = 0; segment < n; ++segment) {
-        FaceRows& rows = face_rows.emplace_back();
-        const auto vertex = [&](int k) { return (segment + n - 1 + k) % n; };
-        for (int q = 0; q < n; ++q) {
-            bool any = false;
-            for (int k = 0; k < face_vertices<Dim>; ++k)
-                any |= delassus(vertex(k), q) != 0;
-            if (!any) continue;
-            rows.column.push_back(q);
-            for (int k = 0; k < face_vertices<Dim>; ++k)
-                rows.value[k].push_back(delassus(vertex(k), q));
-        }
-    }
-}
-
-template <int Dim> double Discretisation<Dim>::delassus(int row, int column) const
-{
-    for (int k = delassus_row[row]; k < delassus_row[row + 1]; ++k)
-        if (delassus_column[k] == column) return delassus_value[k];
-    return 0;
+    std::vector<typename SurfaceOperator<Dim>::Row> rows;
+    for (const auto& row : folded)
+        rows.emplace_back(row.begin(), row.end());
+    this->build(rows, node_mass);
 }
 
 template <int Dim> Vec<Dim> Discretisation<Dim>::at_surface(int point, const double* field) const

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "grain/outline.hpp"
+#include "grid/surface_operator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,22 +21,21 @@ struct Resolution {
     double node_threshold
         = 0; ///< nodes with less mass follow their neighbours [mass of the heaviest node]; 0: threshold() chooses
     double merge_threshold = 0.35;   ///< cells filled less join a neighbour [volume of a cell]
+    bool mean_dilatation = true;     ///< cure of volumetric locking: cells have one volume change, not each point its own
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
 
     /// Light nodes soften narrow contacts, as they should be, but let the surface of a coarse grain wrinkle.
     double threshold() const { return node_threshold > 0 ? node_threshold : std::clamp(3.0 / points, 0.03, 0.05); }
 };
 
-/// Surface points that a place on a face follows: in 2D the ends of its segment and one beyond each.
-template <int Dim> constexpr int face_vertices = Dim == 2 ? 4 : 3;
-
-template <int Dim> class Discretisation {
+template <int Dim> class Discretisation : public SurfaceOperator<Dim> {
 public:
     static constexpr int stencil = power(3, Dim);
 
     Discretisation(const Outline<Dim>& outline, const Resolution& resolution);
 
-    double cell_width; ///< h [radius]
+    double cell_width;     ///< h [radius]
+    double node_threshold; ///< of the Resolution
 
     // Nodes: masters first, then slaves, which extrapolate masters linearly (so rigid motions and uniform
     // strains are exact) and hand their forces and masses to them.
@@ -74,7 +74,8 @@ public:
     struct Region {
         int first_block, block_count;
         double volume;
-        bool full; ///< a whole cell, its points the 2-point Gauss rule
+        bool full;        ///< a whole cell, its points the 2-point Gauss rule
+        double pointwise; ///< share of the volumetric stiffness that acts on each point's own volume change
     };
     std::vector<Region> regions;
     int point_count() const { return int(point_position.size()); }
@@ -87,18 +88,6 @@ public:
     };
     std::vector<SurfaceStencil> surface_stencil;
     int surface_count() const { return int(surface.size()); }
-
-    /// Delassus operator of the surface: velocity of surface point s due to a unit impulse on surface point
-    /// `column`, per unit density and radius^Dim; rows in CSR form, isotropic in space.
-    std::vector<int> delassus_row, delassus_column;
-    std::vector<double> delassus_value;
-    double delassus(int row, int column) const;
-    /// The same for faces: the rows of all vertices that a face follows, on the columns that any of them has.
-    struct FaceRows {
-        std::vector<int> column;
-        std::array<std::vector<double>, face_vertices<Dim>> value; ///< [vertex][column]
-    };
-    std::vector<FaceRows> face_rows; ///< [segment]
 
     Moments<Dim> moments; ///< of the material points; equal to the outline's to round-off
 
@@ -116,7 +105,7 @@ public:
 
 private:
     struct Cells;
-    void place_points(const Cells& cells);
+    void place_points(const Cells& cells, bool mean_dilatation);
     void place_surface(const Outline<Dim>& outline, const Cells& cells, double spacing);
     void bind_slaves(double threshold);
     void average_gradients();

@@ -36,9 +36,9 @@ template <int Dim> MatrixForm<Dim> matrix_form(const ContactProblem<Dim>& proble
     for (const Surface<Dim>* body : problem.bodies) {
         first.push_back(points);
         for (int p = 0; body->mobility > 0 && p < body->count; ++p)
-            for (int j = body->mesh->delassus_row[p]; j < body->mesh->delassus_row[p + 1]; ++j)
-                operators.emplace_back(points + p, points + body->mesh->delassus_column[j],
-                                       body->mobility * body->mesh->delassus_value[j]);
+            for (int j = body->response->delassus_row[p]; j < body->response->delassus_row[p + 1]; ++j)
+                operators.emplace_back(points + p, points + body->response->delassus_column[j],
+                                       body->mobility * body->response->delassus_value[j]);
         points += body->count;
     }
     MatrixForm<Dim> form;

@@ -60,7 +60,7 @@ public:
         bodies_.clear();
         velocity_.clear();
         for (const Surface<Dim>* body : problem.bodies) {
-            bodies_.push_back({ int(velocity_.size()) / Dim, body->mobility, body->mesh });
+            bodies_.push_back({ int(velocity_.size()) / Dim, body->mobility, body->response });
             velocity_.insert(velocity_.end(), body->velocity.begin(), body->velocity.end());
         }
         divide();
@@ -125,7 +125,7 @@ private:
     struct Body {
         int first; ///< of its points among all
         double mobility;
-        const Discretisation<Dim>* mesh;
+        const SurfaceOperator<Dim>* response;
     };
     /// The contacts of two bodies.
     struct Block {
@@ -223,7 +223,7 @@ private:
     {
         if (contact.other < 0 || bodies_[contact.other].mobility == 0) return;
         const Body& body = bodies_[contact.other];
-        const auto& rows = body.mesh->face_rows[contact.face];
+        const auto& rows = body.response->face_rows[contact.face];
         const size_t first = responses.size(), count = rows.column.size();
         responses.resize(first + count);
         double scale[face_vertices<Dim>];
@@ -242,13 +242,13 @@ private:
     {
         const Contact<Dim>& contact = *local.contact;
         if (const Body& body = bodies_[contact.body]; body.mobility > 0) {
-            const auto& mesh = *body.mesh;
-            for (int j = mesh.delassus_row[contact.point]; j < mesh.delassus_row[contact.point + 1]; ++j)
-                visit(body.first + mesh.delassus_column[j], body.mobility * mesh.delassus_value[j]);
+            const auto& response = *body.response;
+            for (int j = response.delassus_row[contact.point]; j < response.delassus_row[contact.point + 1]; ++j)
+                visit(body.first + response.delassus_column[j], body.mobility * response.delassus_value[j]);
         }
         if (contact.other < 0 || bodies_[contact.other].mobility == 0) return;
         const Body& body = bodies_[contact.other];
-        const auto& column = body.mesh->face_rows[contact.face].column;
+        const auto& column = body.response->face_rows[contact.face].column;
         for (size_t j = 0; j < column.size(); ++j)
             visit(body.first + column[j], group.responses[local.response + j]);
     }

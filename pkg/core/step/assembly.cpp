@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <random>
 
 namespace softgrain {
 namespace {
@@ -54,6 +54,44 @@ namespace {
                               + shown(grain.surface.speed) + " m/s) or take a smaller time step.");
     }
 
+    template <int Dim> void predict_updated(Grain<Dim>& grain, double dt, const Vec<Dim>& gravity)
+    {
+        UpdatedBody<Dim>& body = *grain.updated;
+        Surface<Dim>& surface = grain.surface;
+        surface.response = &body.response();    // of this very grain, which may be a copy
+        for (int p = 0; p < surface.count; ++p) // on the grid of this step
+            Eigen::Map<Vec<Dim>>(&surface.velocity_before[size_t(Dim) * p]) = grain.radius * body.velocity_at_surface(p);
+        if (grain.spin_acceleration != Mat<Dim>::Zero()) grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
+        grain.min_J
+            = body.kick(*grain.mesh, *grain.law, grain.parameters.data(), dt / (grain.density * grain.radius * grain.radius),
+                        dt / grain.radius * (gravity + grain.acceleration));
+        for (int p = 0; p < surface.count; ++p)
+            surface.v(p) = grain.radius * body.velocity_at_surface(p);
+    }
+
+    template <int Dim> void correct_updated(Grain<Dim>& grain, double dt)
+    {
+        UpdatedBody<Dim>& body = *grain.updated;
+        Surface<Dim>& surface = grain.surface;
+        const double unit = surface.mobility / grain.radius;
+        double speed2 = 0;
+        for (int p = 0; p < surface.count; ++p) {
+            const Eigen::Map<Vec<Dim>> impulse(&surface.impulse[size_t(Dim) * p]);
+            if (impulse != Vec<Dim>::Zero()) body.push(p, unit * impulse);
+            speed2 = std::max(speed2, surface.v(p).squaredNorm());
+        }
+        std::fill(surface.impulse.begin(), surface.impulse.end(), 0);
+        surface.speed = std::sqrt(speed2);
+        surface.travel += dt * surface.speed;
+        if (leaps(grain, dt)) return;
+        if (!body.drift(dt)) {
+            grain.motion.kinetic = std::numeric_limits<double>::quiet_NaN();
+            return;
+        }
+        grain.settle();
+        surface.bound();
+    }
+
 } // namespace
 
 template <int Dim>
@@ -63,6 +101,10 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
     std::map<std::pair<const void*, const void*>, std::vector<Grain<Dim>*>> groups;
     std::vector<std::pair<const void*, const void*>> order;
     for (Grain<Dim>* grain : grains_) {
+        if (grain->updated) {
+            updated_.push_back(grain);
+            continue;
+        }
         auto& group = groups[{ grain->mesh.get(), grain->law }];
         if (group.empty()) order.push_back({ grain->mesh.get(), grain->law });
         group.push_back(grain);
@@ -92,7 +134,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
             members_.push_back(part);
         }
     }
-    least_J_.assign(batches_.size(), 1);
+    least_J_.assign(batches_.size() + updated_.size(), 1);
     for (size_t b = 0; b < batches_.size(); ++b)
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             members_[b][lane]->batch = batches_[b].get();
@@ -137,18 +179,25 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         }
         least_J_[b] = least;
     }
-    for (int b = 0; b < count; ++b)
-        if (!(least_J_[b] > 0))
-            for (Grain<Dim>* grain : members_[b])
-                if (!(grain->min_J > 0)) report_inversion(*grain);
+    const int single = int(updated_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        predict_updated(*updated_[g], dt, gravity);
+        const double J = updated_[g]->min_J;
+        least_J_[count + g] = J >= 1 ? 1 : J;
+    }
+    if (!std::all_of(least_J_.begin(), least_J_.end(), [](double J) { return J > 0; }))
+        for (Grain<Dim>* grain : grains_)
+            if (!(grain->min_J > 0)) report_inversion(*grain);
 }
 
 template <int Dim> double Assembly<Dim>::min_J() const { return *std::min_element(least_J_.begin(), least_J_.end()); }
 
 template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Visit& before, const Visit& after)
 {
-    std::vector<char> sound(batches_.size(), true);
-    const int count = int(batches_.size());
+    const int count = int(batches_.size()), single = int(updated_.size());
+    std::vector<char> sound(count + single, true);
+    std::vector<std::string> complaint(single);
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
@@ -170,7 +219,21 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         for (const Grain<Dim>* grain : members_[b])
             sound[b] &= !leaps(*grain, dt);
     }
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        Grain<Dim>& grain = *updated_[g];
+        if (before) before(grain);
+        try {
+            correct_updated(grain, dt);
+        } catch (const SimulationError& error) { // must not leave the parallel loop
+            complaint[g] = error.what();
+        }
+        sound[count + g] = is_finite(grain) && !leaps(grain, dt) && complaint[g].empty();
+        if (after && sound[count + g]) after(grain);
+    }
     report_unsound(sound, dt);
+    for (int g = 0; g < single; ++g)
+        if (!complaint[g].empty()) throw SimulationError(whose(updated_[g]->id) + ": " + complaint[g] + ".");
 }
 
 template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit& after)
@@ -228,12 +291,11 @@ template <int Dim> bool Assembly<Dim>::observe(int b, double dt, const Visit& af
 
 template <int Dim> void Assembly<Dim>::report_unsound(const std::vector<char>& sound, double dt)
 {
-    for (size_t b = 0; b < sound.size(); ++b)
-        if (!sound[b])
-            for (Grain<Dim>* grain : members_[b]) {
-                if (!is_finite(*grain)) report_not_finite(*grain);
-                if (leaps(*grain, dt)) report_leap(*grain, dt);
-            }
+    if (std::all_of(sound.begin(), sound.end(), [](char is) { return is; })) return;
+    for (Grain<Dim>* grain : grains_) {
+        if (!is_finite(*grain)) report_not_finite(*grain);
+        if (leaps(*grain, dt)) report_leap(*grain, dt);
+    }
 }
 
 template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)
@@ -266,6 +328,10 @@ template <int Dim> void Assembly<Dim>::evaluate_stretch(int threads)
         for (size_t lane = 0; lane < members_[b].size(); ++lane)
             members_[b][lane]->min_stretch = batch.per_lane[lane];
     }
+    const int single = int(updated_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g)
+        updated_[g]->elastic_energy();
 }
 
 template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
@@ -287,42 +353,18 @@ template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
             motion_kernels<Dim>().drift[batch.wide()](data, -dt / 2);
         }
     }
-}
-
-template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
-{
-    Batch<Dim> batch(grain.mesh, *grain.law, 1);
-    for (int k = 0; k < max_parameters; ++k)
-        batch.parameters[k] = grain.parameters[k];
-    const int size = Dim * grain.mesh->master_count;
-    std::mt19937 generator(1);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    std::vector<double> x(size);
-    for (double& value : x)
-        value = uniform(generator);
-    // x <- M^-1 K x; K x by the force at a displacement small enough to be linear and large enough to be exact
-    constexpr double small = 1e-7;
-    double eigenvalue = 0;
-    for (int iteration = 0; iteration < 300; ++iteration) {
-        double norm = 0;
-        for (int i = 0; i < size; ++i)
-            norm += grain.mesh->node_mass[i / Dim] * x[i] * x[i];
-        norm = std::sqrt(norm);
-        for (int i = 0; i < size; ++i)
-            batch.displacement[i] = small * (x[i] /= norm);
-        double sums[MotionSums<Dim>::count], min_J;
-        motion_kernels<Dim>().observe[0](batch.data(), sums);
-        grain.law->internal_force[0](batch.data(), &min_J);
-        eigenvalue = 0;
-        for (int i = 0; i < size; ++i) {
-            eigenvalue -= x[i] * batch.force()[i] / small;
-            x[i] = -batch.force()[i] / small / grain.mesh->node_mass[i / Dim];
-        }
+    const int single = int(updated_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        Grain<Dim>& grain = *updated_[g];
+        const auto energy = [&](double back) {
+            double min_stretch;
+            return grain.updated->elastic_energy(*grain.mesh, *grain.law, grain.parameters.data(), dt, back, min_stretch);
+        };
+        grain.elastic = std::pow(grain.radius, Dim) * (2 * energy(dt / 2) - (energy(dt) + energy(0)) / 2);
     }
-    return 2 / std::sqrt(eigenvalue);
 }
 
 template class Assembly<2>;
-template double unit_critical_step<2>(const Grain<2>&);
 
 } // namespace softgrain

@@ -4,6 +4,8 @@
 //     v* = v + dt f(u) / m + dt g        predict
 //     v' = v* + contact impulses / m     (the caller fills the contact problem, a solver solves it)
 //     u' = u + dt v'                     correct
+//
+// Total-Lagrangian grains advance in batches; updated-Lagrangian ones (Grain::updated) one by one, on grids of their own.
 #pragma once
 
 #include "solver/contact_problem.hpp"
@@ -62,21 +64,10 @@ private:
     std::vector<Grain<Dim>*> grains_;
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
-    std::vector<double> least_J_;                   ///< of each batch
+    std::vector<Grain<Dim>*> updated_;              ///< updated-Lagrangian ones, which no batch holds
+    std::vector<double> least_J_;                   ///< of each batch, then of each updated-Lagrangian grain
 };
 
-/// Largest stable step of symplectic Euler for the undeformed grain, 2 / omega_max, per sqrt(density) radius
-/// [s sqrt(m/kg)]; power iteration on the linearised force.
-template <int Dim> double unit_critical_step(const Grain<Dim>& grain);
-
-/// Largest stable step of a grain as deformed at its last energy evaluation [s]. Compression by a stretch s
-/// raises the frequency of waves along it by 1/s.
-template <int Dim> double critical_step(const Grain<Dim>& grain, double unit_step)
-{
-    return unit_step * std::sqrt(grain.density) * grain.radius * std::min(1.0, grain.min_stretch);
-}
-
 extern template class Assembly<2>;
-extern template double unit_critical_step<2>(const Grain<2>&);
 
 } // namespace softgrain

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/aligned.hpp"
+#include "base/tensor.hpp"
 #include "grid/discretisation.hpp"
 
 #include <memory>
@@ -66,6 +67,12 @@ template <int Dim> struct LawKernels {
     KernelPair<Dim, const StiffnessPattern<Dim>*, double*, double*> stiffness;
     /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa].
     Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
+    /// The same as in internal_force for the points of one region: first Piola stresses times `scale` in place of their
+    /// deformation gradients; returns the smallest J.
+    double (*region_stress)(const double* parameters, double share, double scale, Tensor<Dim, double>* F);
+    /// The same as in energy for one region of this volume; `min_stretch` falls to the smallest stretch.
+    double (*region_energy)(const double* parameters, double share, double volume, const Tensor<Dim, double>* F,
+                            double& min_stretch);
 };
 
 /// Kernels of every law.

@@ -37,6 +37,11 @@ void Grain<Dim>::place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const V
 {
     batch = nullptr;
     origin = centre;
+    if (updated) {
+        updated->place(*mesh, rotation);
+        updated->add_velocity(Vec<Dim>::Zero(), speed / radius, velocity_gradient);
+        return refresh();
+    }
     displacement.resize(size_t(Dim) * mesh->master_count);
     velocity.resize(displacement.size());
     for (int i = 0; i < mesh->master_count; ++i) {
@@ -73,6 +78,10 @@ template <int Dim> Batch<Dim> Grain<Dim>::alone() const
 
 template <int Dim> double Grain<Dim>::elastic_energy()
 {
+    if (updated) {
+        elastic = updated->elastic_energy(*mesh, *law, parameters.data(), 0, 0, min_stretch);
+        return elastic *= std::pow(radius, Dim);
+    }
     Batch<Dim> batch = alone();
     law->energy[0](batch.data(), &elastic, &min_stretch);
     return elastic *= std::pow(radius, Dim);
@@ -80,24 +89,43 @@ template <int Dim> double Grain<Dim>::elastic_energy()
 
 template <int Dim> void Grain<Dim>::refresh()
 {
-    Batch<Dim> alone = this->alone();
-    motion = motion_of(*this, alone.sums.data(), 1);
-
     surface.resize(mesh->surface_count());
-    surface.mesh = mesh.get();
     surface.size = radius;
     surface.mobility = 1 / (density * std::pow(radius, Dim));
-    const std::vector<double> v = with_slaves(velocity);
-    surface.speed = 0;
-    for (int p = 0; p < surface.count; ++p) {
+    for (int p = 0; p < surface.count; ++p)
         surface.corner[p] = mesh->surface[p].corner;
-        const Vec<Dim> speed = radius * mesh->at_surface(p, v.data());
-        surface.v(p) = speed;
-        surface.speed = std::max(surface.speed, speed.norm());
+    if (updated) {
+        settle();
+        for (int p = 0; p < surface.count; ++p)
+            surface.v(p) = radius * updated->velocity_at_surface(p);
+    } else
+        refresh_from_nodes();
+    surface.speed = 0;
+    for (int p = 0; p < surface.count; ++p)
+        surface.speed = std::max(surface.speed, surface.v(p).norm());
+    surface.bound();
+}
+
+template <int Dim> void Grain<Dim>::refresh_from_nodes()
+{
+    Batch<Dim> alone = this->alone();
+    motion = motion_of(*this, alone.sums.data(), 1);
+    surface.response = mesh.get();
+    const std::vector<double> v = with_slaves(velocity);
+    for (int p = 0; p < surface.count; ++p) {
+        surface.v(p) = radius * mesh->at_surface(p, v.data());
         for (int d = 0; d < Dim; ++d)
             surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface()[size_t(Dim) * p + d];
     }
-    surface.bound();
+}
+
+template <int Dim> void Grain<Dim>::settle()
+{
+    updated->settle(*mesh);
+    motion = motion_of(*this, updated->sums(*mesh).data(), 1);
+    for (int p = 0; p < surface.count; ++p)
+        for (int d = 0; d < Dim; ++d)
+            surface.position[size_t(Dim) * p + d] = origin[d] + radius * updated->surface[p][d];
 }
 
 template <int Dim> void Grain<Dim>::pull()
@@ -130,20 +158,28 @@ template <int Dim> void Grain<Dim>::translate(const Vec<Dim>& shift)
 
 template <int Dim> void Grain<Dim>::add_velocity(const Vec<Dim>& of_centre, const Mat<Dim>& gradient)
 {
-    pull();
     const Vec<Dim> centre = (motion.position - origin) / radius;
-    for (int i = 0; i < mesh->master_count; ++i) {
-        const Eigen::Map<const Vec<Dim>> u(&displacement[size_t(Dim) * i]);
-        Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * i])
-            += of_centre / radius + gradient * (mesh->node_position[i] + u - centre);
-    }
-    put();
+    if (updated)
+        updated->add_velocity(centre, of_centre / radius, gradient);
+    else
+        add_to_nodes(centre, of_centre / radius, gradient);
     for (int p = 0; p < surface.count; ++p)
         surface.v(p) += of_centre + gradient * (surface.x(p) - motion.position);
 }
 
+template <int Dim> void Grain<Dim>::add_to_nodes(const Vec<Dim>& centre, const Vec<Dim>& of_centre, const Mat<Dim>& gradient)
+{
+    pull();
+    for (int i = 0; i < mesh->master_count; ++i) {
+        const Eigen::Map<const Vec<Dim>> u(&displacement[size_t(Dim) * i]);
+        Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * i]) += of_centre + gradient * (mesh->node_position[i] + u - centre);
+    }
+    put();
+}
+
 template <int Dim> std::vector<Mat<Dim>> Grain<Dim>::deformation_gradients() const
 {
+    if (updated) return updated->deformation;
     constexpr int stencil = Discretisation<Dim>::stencil;
     const std::vector<double> u = with_slaves(displacement);
     std::vector<Mat<Dim>> F(mesh->point_count(), Mat<Dim>::Identity());
@@ -167,7 +203,8 @@ template <int Dim> std::vector<Mat<3>> Grain<Dim>::cauchy_stresses() const
         for (int p = first; p < first + points; ++p) {
             Mat<3> whole = Mat<3>::Identity();
             whole.template topLeftCorner<Dim, Dim>() = F[p];
-            stress.push_back(law->cauchy_stress(parameters.data(), whole, mean_J));
+            stress.push_back(
+                law->cauchy_stress(parameters.data(), whole, region.pointwise < 1 ? mean_J : F[p].determinant()));
         }
     }
     return stress;
@@ -188,15 +225,17 @@ template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::at_points(const std::vector
 
 template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_positions() const
 {
-    std::vector<Vec<Dim>> x = at_points(displacement);
-    for (int p = 0; p < mesh->point_count(); ++p)
-        x[p] = origin + radius * (mesh->point_position[p] + x[p]);
+    std::vector<Vec<Dim>> x = updated ? updated->position : at_points(displacement);
+    for (int p = 0; p < mesh->point_count(); ++p) {
+        if (!updated) x[p] += mesh->point_position[p];
+        x[p] = origin + radius * x[p];
+    }
     return x;
 }
 
 template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_velocities() const
 {
-    std::vector<Vec<Dim>> v = at_points(velocity);
+    std::vector<Vec<Dim>> v = updated ? updated->velocity : at_points(velocity);
     for (auto& value : v)
         value *= radius;
     return v;

@@ -3,6 +3,7 @@
 
 #include "contact/surface.hpp"
 #include "step/batch.hpp"
+#include "step/updated.hpp"
 
 #include <memory>
 
@@ -28,6 +29,8 @@ template <int Dim> struct Grain {
     double density = 0, radius = 0;                   ///< [kg/m3], [m] (equal-volume radius)
     Vec<Dim> origin = Vec<Dim>::Zero();               ///< a node is at origin + radius (X + u) [m]
     std::vector<double> displacement, velocity;       ///< of the masters, [node][Dim] [radius], [radius/s]
+    /// Updated-Lagrangian: its state, instead of the node fields. None, as it is unless set before place(): total-Lagrangian.
+    std::optional<UpdatedBody<Dim>> updated;
     Surface<Dim> surface;
     Motion<Dim> motion;
     Vec<Dim> acceleration = Vec<Dim>::Zero();       ///< by forces on the grain as a whole, besides gravity [m/s2]
@@ -39,8 +42,10 @@ template <int Dim> struct Grain {
     /// At rest, undeformed, turned by `rotation`, centre at `centre`; sizes all fields.
     void place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const Vec<Dim>& velocity,
                const Mat<Dim>& velocity_gradient);
-    /// Surface and motion from the node fields held here.
+    /// Surface and motion from the node fields held here, or from the points.
     void refresh();
+    /// Surface and motion of an updated-Lagrangian grain after its points have moved: lays its grid anew.
+    void settle();
     /// Moves the grain as it is.
     void translate(const Vec<Dim>& shift);
     /// Adds a rigid motion to the velocities of nodes and surface: of the centre of mass [m/s], and about it [1/s].
@@ -64,6 +69,8 @@ template <int Dim> struct Grain {
     void put();
 
 private:
+    void refresh_from_nodes();
+    void add_to_nodes(const Vec<Dim>& centre, const Vec<Dim>& of_centre, const Mat<Dim>& gradient);
     Batch<Dim> alone() const;
     std::vector<Vec<Dim>> at_points(const std::vector<double>& field) const;
     std::vector<double> with_slaves(const std::vector<double>& field) const;

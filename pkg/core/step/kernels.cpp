@@ -26,6 +26,21 @@ namespace {
         return first_piola * deformation.transpose() / J;
     }
 
+    template <int Dim, class Law> double region_stress(const double* p, double share, double scale, Tensor<Dim, double>* F)
+    {
+        double smallest = 1e300;
+        kernels::region_stress<Dim, Law>(p, share, scale, F, smallest);
+        return smallest;
+    }
+
+    template <int Dim, class Law>
+    double region_energy(const double* p, double share, double volume, const Tensor<Dim, double>* F, double& min_stretch)
+    {
+        double sum = 0;
+        kernels::region_energy<Dim, Law>(p, share, volume, F, sum, min_stretch);
+        return sum;
+    }
+
     template <int Dim, class Law> LawKernels<Dim> kernels_of()
     {
         return { Law::name,
@@ -37,7 +52,9 @@ namespace {
                  Versions<kernels::InternalForce<Dim, Law>, Dim, double*>::table(),
                  Versions<kernels::Energy<Dim, Law>, Dim, double*, double*>::table(),
                  Versions<kernels::Stiffness<Dim, Law>, Dim, const StiffnessPattern<Dim>*, double*, double*>::table(),
-                 &cauchy_stress<Law> };
+                 &cauchy_stress<Law>,
+                 &region_stress<Dim, Law>,
+                 &region_energy<Dim, Law> };
     }
 
     /// The register of laws.

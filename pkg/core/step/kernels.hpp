@@ -237,11 +237,61 @@ template <int Dim, class T, int L> SOFTGRAIN_INLINE void interpolate(const Kerne
 
 /// Points of a cut cell lie where the nodes are held by little mass; a share of the volumetric stiffness keeps their J near
 /// the mean of the region [Pa]. It is a stiffness against pointwise volume change, so it may not grow with the volumetric
-/// one: over some 50 shear moduli (a Poisson ratio of 0.49) it would lock the rim. Full cells need none.
-template <int Dim, class Law, class T>
-SOFTGRAIN_INLINE T stabilisation(const typename Discretisation<Dim>::Region& region, const T* p)
+/// one: over some 50 shear moduli (a Poisson ratio of 0.49) it would lock the rim. Full cells need none. With the whole
+/// share there is no mean dilatation: U(mean J) + U''(1) / 2 (J_p - mean J)^2 has the mean of U(J_p), but for third powers.
+template <class Law, class T> SOFTGRAIN_INLINE T stabilisation(double share, const T* p)
 {
-    return (region.full ? 0 : 0.8) * smaller(Law::volumetric_modulus(p), 50.0 * Law::shear_modulus(p));
+    const T stiffness = Law::volumetric_modulus(p);
+    return share < 1 ? share * smaller(stiffness, 50.0 * Law::shear_modulus(p)) : stiffness;
+}
+
+/// Stresses of the points of a region in place of their deformation gradients, times `scale`:
+///     scale [dw/dF + (U'(mean J) + k (J_p - mean J)) cof F_p],    k the stabilisation.
+/// `smallest` falls to the smallest J.
+template <int Dim, class Law, class T>
+SOFTGRAIN_INLINE void region_stress(const T* p, double share, double scale, Tensor<Dim, T>* F, T& smallest)
+{
+    constexpr int points = power(2, Dim);
+    T J[points + 1], inverse_J[points + 1], sum {}; // the last: mean J of the region
+#pragma GCC unroll 8
+    for (int q = 0; q < points; ++q) {
+        J[q] = determinant(F[q]);
+        sum += J[q];
+        smallest = smaller(J[q], smallest);
+    }
+    J[points] = sum * (1.0 / points);
+    reciprocals<points + 1>(J, inverse_J);
+    const T slope = Law::volumetric_slope(p, J[points], inverse_J[points]);
+    const T stiff = stabilisation<Law>(share, p);
+#pragma GCC unroll 8
+    for (int q = 0; q < points; ++q) {
+        const Tensor<Dim, T> cof = cofactor(F[q]);
+        Tensor<Dim, T> P;
+        Law::template stress<Dim, T>(p, F[q], cof, inverse_J[q], P);
+#pragma GCC unroll 3
+        for (int i = 0; i < Dim; ++i)
+#pragma GCC unroll 3
+            for (int j = 0; j < Dim; ++j)
+                F[q].at[i][j] = scale * (P.at[i][j] + (slope + stiff * (J[q] - J[points])) * cof.at[i][j]);
+    }
+}
+
+/// Adds the elastic energy of a region to `sum`; `smallest` falls to the smallest principal stretch.
+template <int Dim, class Law, class T>
+SOFTGRAIN_INLINE void region_energy(const T* p, double share, double volume, const Tensor<Dim, T>* F, T& sum, T& smallest)
+{
+    constexpr int points = power(2, Dim);
+    T J[points], mean {}, spread {};
+    for (int q = 0; q < points; ++q) {
+        J[q] = determinant(F[q]);
+        mean += J[q];
+        smallest = smaller(smallest_stretch(F[q]), smallest);
+        sum += volume / points * Law::template energy<Dim, T>(p, F[q]);
+    }
+    mean *= 1.0 / points;
+    for (int q = 0; q < points; ++q)
+        spread += (J[q] - mean) * (J[q] - mean) * (1.0 / points);
+    sum += volume * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Law>(share, p) * spread);
 }
 
 /// f_i = - sum_p V_p P_p grad N_i (Vu et al. 2017, eq. 6, in the reference configuration) with the mean dilatation
@@ -260,29 +310,7 @@ template <int Dim, class Law> struct InternalForce {
             const auto& region = data.regions[r];
             Tensor<Dim, T> F[points];
             deform<Dim, L>(data, region, F);
-            T J[points + 1], inverse_J[points + 1], sum {}; // the last: mean J of the region
-#pragma GCC unroll 8
-            for (int q = 0; q < points; ++q) {
-                J[q] = determinant(F[q]);
-                sum += J[q];
-                smallest = smaller(J[q], smallest);
-            }
-            J[points] = sum * (1.0 / points);
-            reciprocals<points + 1>(J, inverse_J);
-            const T slope = Law::volumetric_slope(p, J[points], inverse_J[points]);
-            const double volume = -region.volume / points;
-            const T stiff = stabilisation<Dim, Law>(region, p);
-#pragma GCC unroll 8
-            for (int q = 0; q < points; ++q) {
-                const Tensor<Dim, T> cof = cofactor(F[q]);
-                Tensor<Dim, T> P;
-                Law::template stress<Dim, T>(p, F[q], cof, inverse_J[q], P);
-#pragma GCC unroll 3
-                for (int i = 0; i < Dim; ++i)
-#pragma GCC unroll 3
-                    for (int j = 0; j < Dim; ++j)
-                        F[q].at[i][j] = volume * (P.at[i][j] + (slope + stiff * (J[q] - J[points])) * cof.at[i][j]);
-            }
+            region_stress<Dim, Law>(p, region.pointwise, -region.volume / points, F, smallest);
             load<Dim, L>(data, region, F);
         }
         fold<Dim, T, L>(data, data.force);
@@ -294,25 +322,14 @@ template <int Dim, class Law> struct Energy {
     template <class T, int L>
     static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* energy, double* min_stretch)
     {
-        constexpr int points = power(2, Dim);
         T p[Law::parameters.size()], sum {}, smallest = broadcast<T>(1e300);
         for (size_t k = 0; k < Law::parameters.size(); ++k)
             p[k] = item<T, L>(data.parameters, k);
         for (int r = 0; r < data.region_count; ++r) {
             const auto& region = data.regions[r];
-            Tensor<Dim, T> F[points];
+            Tensor<Dim, T> F[power(2, Dim)];
             deform<Dim, L>(data, region, F);
-            T J[points], mean {}, spread {};
-            for (int q = 0; q < points; ++q) {
-                J[q] = determinant(F[q]);
-                mean += J[q];
-                smallest = smaller(smallest_stretch(F[q]), smallest);
-                sum += region.volume / points * Law::template energy<Dim, T>(p, F[q]);
-            }
-            mean *= 1.0 / points;
-            for (int q = 0; q < points; ++q)
-                spread += (J[q] - mean) * (J[q] - mean) * (1.0 / points);
-            sum += region.volume * (Law::volumetric_energy(p, mean) + 0.5 * stabilisation<Dim, Law>(region, p) * spread);
+            region_energy<Dim, Law>(p, region.pointwise, region.volume, F, sum, smallest);
         }
         field<T, L>(energy)[0] = sum;
         field<T, L>(min_stretch)[0] = smallest;

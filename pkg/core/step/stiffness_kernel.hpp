@@ -41,7 +41,7 @@ template <int Dim, class Law> struct Stiffness {
             reciprocals<points + 1>(J, inverse_J);
             const T slope = Law::volumetric_slope(p, J[points], inverse_J[points]);
             const T curvature = larger(Law::volumetric_curvature(p, J[points], inverse_J[points]), T {});
-            const T stiff = stabilisation<Dim, Law>(region, p);
+            const T stiff = stabilisation<Law>(region.pointwise, p);
             const double volume = region.volume / points;
             T even[points], odd[points], outer[points], h[points][most][Dim], mean[most][Dim];
             for (int a = 0; a < share.rows; ++a)

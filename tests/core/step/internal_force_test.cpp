@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // f = -dE/du, seen from outside: forces from the velocities that a step from rest gives, energies from the grains.
+#include "material/mooney_rivlin.hpp"
 #include "support/dense.hpp"
 #include "support/finite_difference.hpp"
 #include "support/forces.hpp"
@@ -190,6 +191,32 @@ TEST(InternalForce, HasTheStiffnessOfHookesLawAtRest)
                     (found - K).norm() / K.norm(), (found - found.transpose()).norm() / K.norm());
         EXPECT_LE((found - K).norm(), 1e-8 * K.norm()); // of the differences in stiffness()
     }
+}
+
+// Of Mooney-Rivlin U is a parabola, so that the mean of U(J_p) is U(mean J) + U''/2 times the mean square of J_p - mean J.
+TEST(InternalForce, WithoutMeanDilatationEveryPointHasItsOwnVolumeChange)
+{
+    Resolution resolution;
+    resolution.points = 60;
+    resolution.mean_dilatation = false;
+    const auto mesh = std::make_shared<const Discretisation<2>>(DiscOutline(), resolution);
+    Random random(3);
+    Grain<2> grain = make_grain(mesh, mooney_rivlin());
+    for (double& u : grain.displacement)
+        u += random.uniform(-0.05, 0.05) * mesh->cell_width;
+    grain.refresh();
+    const std::vector<Mat<2>> deformation = grain.deformation_gradients();
+    double expected = 0;
+    for (size_t p = 0; p < deformation.size(); ++p) {
+        Tensor<2, double> F;
+        for (int i = 0; i < 2; ++i)
+            for (int j = 0; j < 2; ++j)
+                F.at[i][j] = deformation[p](i, j);
+        expected += grain.radius * grain.radius * mesh->point_volume[p]
+            * (MooneyRivlin::volumetric_energy(grain.parameters.data(), determinant(F))
+               + MooneyRivlin::energy<2, double>(grain.parameters.data(), F));
+    }
+    EXPECT_NEAR(grain.elastic_energy(), expected, 1e-12 * expected);
 }
 
 TEST(InternalForce, IsNoneInAGrainThatIsOnlyTurned)

@@ -34,6 +34,7 @@ struct GrainStart {
     double angle = 0;
     Vec<2> velocity = Vec<2>::Zero();
     Mat<2> velocity_gradient = Mat<2>::Zero();
+    bool updated = false; ///< in the updated-Lagrangian form
 };
 
 inline Grain<2> make_grain(std::shared_ptr<const Discretisation<2>> mesh, const Material& material,
@@ -46,6 +47,7 @@ inline Grain<2> make_grain(std::shared_ptr<const Discretisation<2>> mesh, const 
     grain.parameters = material.parameters;
     grain.density = density;
     grain.radius = radius;
+    if (start.updated) grain.updated.emplace();
     grain.place(start.centre, turn(start.angle), start.velocity, start.velocity_gradient);
     return grain;
 }

@@ -6,6 +6,7 @@
 #include "contact/narrow_phase.hpp"
 #include "solver/nlgs.hpp"
 #include "step/assembly.hpp"
+#include "step/critical_step.hpp"
 #include "support/grains.hpp"
 
 #include <deque>

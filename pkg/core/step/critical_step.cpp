@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/critical_step.hpp"
+
+#include "step/spectrum.hpp"
+
+#include <algorithm>
+
+namespace softgrain {
+namespace {
+
+    /// Steps of Lanczos's method, for the highest eigenvalue to 1e-4 and to 1 %.
+    constexpr int fine = 40, coarse = 12;
+
+    /// Of its lower bound, the most that is believed: strong compression grows within few steps.
+    constexpr double most = 1.25;
+
+    /// A grain and the lower bound of its step [s].
+    template <int Dim> using Bounded = std::pair<const Grain<Dim>*, double>;
+    template <int Dim> using Grains = std::vector<Bounded<Dim>>;
+
+    /// Grains of one mesh and law as they are deformed.
+    template <int Dim> Batch<Dim> side_by_side(const Grains<Dim>& grains)
+    {
+        const int lanes = grains.size() == 1 ? 1 : 8;
+        Batch<Dim> batch(grains[0].first->mesh, *grains[0].first->law, lanes);
+        for (int lane = 0; lane < lanes; ++lane) {
+            const Grain<Dim>& grain = *grains[std::min(size_t(lane), grains.size() - 1)].first;
+            for (int k = 0; k < max_parameters; ++k)
+                batch.parameters[size_t(k) * lanes + lane] = grain.parameters[k];
+            for (size_t i = 0; i < size_t(Dim) * batch.mesh->master_count; ++i)
+                batch.displacement[i * lanes + lane]
+                    = grain.batch ? grain.batch->displacement[i * grain.batch->lanes + grain.lane] : grain.displacement[i];
+        }
+        return batch;
+    }
+
+    /// The smallest step of up to eight grains of one mesh and law [s].
+    template <int Dim> double smallest_of(const Grains<Dim>& grains)
+    {
+        Batch<Dim> batch = side_by_side(grains);
+        std::vector<double> stiffness(batch.lanes);
+        highest_eigenvalues(batch, coarse, stiffness.data());
+        double least = 1e300;
+        for (size_t lane = 0; lane < grains.size(); ++lane) {
+            const auto& [grain, bound] = grains[lane];
+            const double own = 2 / std::sqrt(stiffness[lane]) * std::sqrt(grain->density) * grain->radius;
+            least = std::min({ least, own, most * bound });
+        }
+        return least;
+    }
+
+    /// Grains of one mesh and law, up to eight together.
+    template <int Dim> std::vector<Grains<Dim>> groups_of(const Grains<Dim>& grains)
+    {
+        std::vector<Grains<Dim>> groups;
+        std::map<std::pair<const void*, const void*>, size_t> open;
+        for (const auto& grain : grains) {
+            const auto [at, added] = open.try_emplace({ grain.first->mesh.get(), grain.first->law }, groups.size());
+            if (added || groups[at->second].size() == 8) {
+                at->second = groups.size();
+                groups.emplace_back();
+            }
+            groups[at->second].push_back(grain);
+        }
+        return groups;
+    }
+
+    /// Down to six digits: beyond them stands the round-off of differences of forces, which a run that goes on after a break
+    /// would not repeat.
+    double without_noise(double step)
+    {
+        int exponent;
+        const double mantissa = std::frexp(step, &exponent);
+        return std::ldexp(std::floor(std::ldexp(mantissa, 20)), exponent - 20);
+    }
+
+} // namespace
+
+template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
+{
+    Batch<Dim> batch(grain.mesh, *grain.law, 1);
+    std::copy(grain.parameters.begin(), grain.parameters.end(), batch.parameters.begin());
+    double stiffness;
+    highest_eigenvalues(batch, fine, &stiffness);
+    return 2 / std::sqrt(stiffness);
+}
+
+template <int Dim> double SmallestCriticalStep<Dim>::operator()(const std::vector<Grain<Dim>*>& grains, int threads)
+{
+    double least = 1e300;
+    Grains<Dim> bounded;
+    for (const Grain<Dim>* grain : grains) {
+        const auto [unit, added] = unit_.try_emplace({ grain->mesh, grain->law, grain->parameters }, 0);
+        if (added) unit->second = unit_critical_step(*grain);
+        const double bound = critical_step(*grain, unit->second);
+        if (grain->updated)
+            least = std::min(least, bound); // its nodes have no displacements to vary
+        else
+            bounded.push_back({ grain, bound });
+    }
+    std::stable_sort(bounded.begin(), bounded.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    // a grain whose bound is over the step of some other is not in question
+    const auto first = bounded.begin() + std::min<size_t>(8, bounded.size());
+    for (const auto& group : groups_of<Dim>({ bounded.begin(), first }))
+        least = std::min(least, smallest_of(group));
+    const auto end = std::find_if(first, bounded.end(), [least](const auto& grain) { return grain.second >= least; });
+    const auto groups = groups_of<Dim>({ first, end });
+#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(min : least)
+    for (size_t g = 0; g < groups.size(); ++g)
+        least = std::min(least, smallest_of(groups[g]));
+    return without_noise(least);
+}
+
+template double unit_critical_step<2>(const Grain<2>&);
+template class SmallestCriticalStep<2>;
+
+} // namespace softgrain
