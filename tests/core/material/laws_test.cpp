@@ -128,12 +128,15 @@ TYPED_TEST(LawIn, PlaneTangentIsTheSlopeOfTheStress)
             };
             const double J = F.determinant();
             const auto tangent = Law::plane_tangent(p, J, 1 / J);
-            const Mat<2> cof = J * F.inverse().transpose(), dcof = (Mat<2>() << A(1, 1), -A(1, 0), -A(0, 1), A(0, 0)).finished();
-            const Mat<2> expected = tangent.identity * A + tangent.cofactor * cof.cwiseProduct(A).sum() * cof + tangent.bend * dcof;
+            const Mat<2> cof = J * F.inverse().transpose(),
+                         dcof = (Mat<2>() << A(1, 1), -A(1, 0), -A(0, 1), A(0, 0)).finished();
+            const Mat<2> expected
+                = tangent.identity * A + tangent.cofactor * cof.cwiseProduct(A).sum() * cof + tangent.bend * dcof;
             for (int i = 0; i < 2; ++i)
                 for (int j = 0; j < 2; ++j)
-                    EXPECT_NEAR(central_gradient([&](const std::vector<double>& s) { return stress(s[0], i, j); }, { 0.0 }, 3e-4)[0],
-                                expected(i, j), 1e-9 * (1 + expected.norm()));
+                    EXPECT_NEAR(
+                        central_gradient([&](const std::vector<double>& s) { return stress(s[0], i, j); }, { 0.0 }, 3e-4)[0],
+                        expected(i, j), 1e-9 * (1 + expected.norm()));
         }
     }
 }

@@ -88,7 +88,8 @@ TEST(ImplicitStep, IsCleanAtAnyLength)
     for (double dt : { 2e-6, 2e-5, 2e-4 }) {
         Press press;
         press.go(0.93, dt);
-        std::printf("steps of %.0e s to 0.93: %d iterations, %d substeps, %d cuts, penetration %.1e, residual %.1e, stress %.0f kPa, "
+        std::printf("steps of %.0e s to 0.93: %d iterations, %d substeps, %d cuts, penetration %.1e, residual %.1e, stress "
+                    "%.0f kPa, "
                     "energy %+.1e\n",
                     dt, press.world.iterations, press.world.substeps, press.world.cuts, press.world.worst_penetration,
                     press.world.worst_residual, press.stress() / 1e3, press.residual());
