@@ -47,7 +47,6 @@ def read_options():
                        help="at which opposite walls approach each other [m/s]; small enough to be quasi-static")
     scene.add_argument("--friction", type=opt.not_negative, default=0.0, metavar="MU", help="of disc and walls")
     scene.add_argument("--angle", type=opt.finite, default=0.0, metavar="RAD", help="rotation of the disc's grid")
-    scene.add_argument("--quasistatic", action="store_true", help="no inertia; not there yet")
     scene.add_argument("--quick", action="store_true",
                        help="short: %s unless given" % ", ".join(f"--{k} {v}" for k, v in QUICK.items()))
     opt.add_material(parser)
@@ -65,7 +64,7 @@ def read_options():
 
 
 def make_scene(options):
-    """The disc about the origin and its walls: dict of (body id, axis) by name."""
+    """The disc about the origin and its walls: dict of (body id, axis) by name; the longest implicit step [s]."""
     soft = O.materials.append(opt.make_material(options))
     rigid = O.materials.append(FrictMat(frictionAngle=math.atan(options.friction), label="walls"))
     O.bodies.append(softDisc((0, 0), options.radius, soft, angle=options.angle, **opt.grain_settings(options)))
@@ -76,8 +75,9 @@ def make_scene(options):
         velocity[axis] = -side * options.speed / 2
         body.state.vel = velocity
         walls[name] = (O.bodies.append(body), axis)
-    O.engines = softEngines(wallFriction=options.friction, **opt.engine_settings(options))
-    return walls
+    method = {**opt.engine_settings(options), **opt.choose_method(options, options.radius * OUTPUT / options.speed)}
+    O.engines = softEngines(wallFriction=options.friction, **method)
+    return walls, method["dt"] if "integrator" in method else None
 
 
 class Squeeze:
@@ -88,13 +88,14 @@ class Squeeze:
         self.disc = measures.softBodies()[0]
         self.soft = measures.softIntegrator()
         self.memory = run.memory
+        self.forces = WallForces(walls, run.interrupted, run.memory["longest_step"])
         if not run.resumed:
-            run.first_step()
-            WallForces.require_steps(2 * self.options.radius * OUTPUT / self.options.speed, self.options.speed)
+            self.forces.first_step(run)
+            self.forces.require_steps(2 * self.options.radius * OUTPUT / self.options.speed, self.options.speed)
             run.begin()
             self.memory.update(window=0, middle=None, steps=1, deepest=0.0)
-        self.forces = WallForces(walls, run.interrupted)
-        if run.resumed:
+            self.forces.reset()
+        else:
             self.forces.restore(self.memory["forces"])
 
     def go(self):
@@ -154,6 +155,7 @@ class Squeeze:
         """Energy that is missing, over the work of the walls."""
         soft = self.soft
         stored = soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
+        stored += getattr(soft, "numericalDissipation", 0.0)
         return (stored - soft.externalWork) / soft.externalWork
 
 
@@ -186,7 +188,7 @@ def main():
     opt.use_threads(options.threads)
     run = runs.Run("squeeze", options, COLUMNS)
     if not run.resumed:
-        run.memory["walls"] = make_scene(options)
+        run.memory["walls"], run.memory["longest_step"] = make_scene(options)
     squeeze = Squeeze(run, run.memory["walls"])
     squeeze.go()
     table = read_table(run.path("squeeze.csv"))

@@ -131,20 +131,33 @@ def softBox(width, height, material=-1):
 
 
 def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSweeps=1000, verletDist=None,
-                friction=None, wallFriction=None, more=(), accuracy=None):
+                friction=None, wallFriction=None, more=(), accuracy=None, integrator="explicit", theta=1.0,
+                quasistatic=False):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
     gravity       [m/s²]
-    dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper
+    dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper (explicit; implicit ones need it)
     safety        time step of the SoftTimeStepper [stable limit]; None: SAFETY, or by accuracy
     tolerance     of the contact solver [-]; None: TOLERANCE, or by accuracy; maxSweeps: most sweeps of it in a step
     verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain
     friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
     wallFriction  the same between grains and other bodies
     more          engines to append (recorders, PyRunners)
-    accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt
+    accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
+    integrator    "explicit" or "implicit"; theta, quasistatic: see SoftImplicitIntegrator
     """
-    given = {"dt": dt, "safety": safety, "tolerance": tolerance}
+    if integrator not in ("explicit", "implicit"):
+        raise InputError(f"softEngines: integrator is {integrator!r}: give 'explicit' or 'implicit'.")
+    implicit = integrator == "implicit"
+    if implicit and dt is None:
+        raise InputError("softEngines: the implicit integrator has no time step of its own: give dt.")
+    if quasistatic and not implicit:
+        raise InputError("softEngines: quasistatic=True has no meaning for the explicit integrator: give "
+                         "integrator='implicit'.")
+    theta = positive("softEngines: theta", theta)
+    if not 0.5 <= theta <= 1:
+        raise InputError(f"softEngines: theta is {theta:g}: give 0.5 to 1.")
+    given = {"dt": None if implicit else dt, "safety": safety, "tolerance": tolerance}
     presets.refuse_both("softEngines", accuracy, [name for name, value in given.items() if value is not None])
     preset = presets.settings("softEngines", accuracy) if accuracy is not None else {}
     safety = preset.get("safety", SAFETY) if safety is None else safety
@@ -167,6 +180,11 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         verletDist = not_negative("softEngines: verletDist", verletDist, "m")
     if isinstance(more, wrapper.Engine) or not isinstance(more, (list, tuple)):
         raise InputError(f"softEngines: more is a {type(more).__name__}: give a list of engines.")
+    if implicit:
+        mover = wrapper.SoftImplicitIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, theta=theta,
+                                               quasistatic=bool(quasistatic))
+    else:
+        mover = wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps)
     return [
         wrapper.ForceResetter(),
         wrapper.InsertionSortCollider(
@@ -179,7 +197,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
              wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction))],
             [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics()]),
         wrapper.NewtonIntegrator(damping=0, gravity=Vector3(*gravity)),
-        wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps),
+        mover,
         *more,
     ]
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Command-line options shared by the examples. A bad option or value is one sentence and exit code 2."""
 import argparse
+import math
 import os
 import re
 import sys
@@ -15,6 +16,7 @@ from .checks import InputError
 MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds", "at_once", "figures"}
 
 MOST_THREADS = 16    # a core
+STEPS_OF_AN_IMPLICIT_ONE = 1000    # explicit steps that cost as much as an implicit one, about
 
 # What argparse takes for a value and not for an option; its own pattern leaves out -1e6.
 NEGATIVE_NUMBER = re.compile(r"^-((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf)$")
@@ -84,6 +86,13 @@ def finite(text):
     return value
 
 
+def theta(text):
+    value = float(text)
+    if not 0.5 <= value <= 1:
+        raise argparse.ArgumentTypeError(f"{text} has to lie between 0.5 and 1")
+    return value
+
+
 def count(text):
     value = int(text)
     if value < 1:
@@ -112,7 +121,7 @@ def accuracy(text):
         return text
 
 
-for _type, _word in ((positive, "number above zero"), (not_negative, "number"), (finite, "number"),
+for _type, _word in ((positive, "number above zero"), (theta, "number"), (not_negative, "number"), (finite, "number"),
                      (count, "whole number"), (threads, "whole number"), (seed, "whole number")):
     _type.__name__ = _word       # argparse says: invalid <name> value
 
@@ -156,11 +165,14 @@ def make_material(options):
 
 def add_method(parser):
     group = parser.add_argument_group("the method")
-    group.add_argument("--integrator", choices=("explicit", "implicit"), default="explicit",
-                       help="time integration; implicit is not there yet")
+    group.add_argument("--integrator", choices=("explicit", "implicit", "auto"), default="explicit",
+                       help="time integration; auto picks by the speed, and says so")
+    group.add_argument("--theta", type=theta, default=1.0, metavar="THETA", help="implicit: weight of a step's end, 0.5 to 1")
+    group.add_argument("--quasistatic", action="store_true", help="implicit, without inertia")
     group.add_argument("--formulation", choices=("total", "updated"), default="total",
                        help="Lagrangian in the undeformed grain, or updated: state on the points, grid laid anew each step")
-    group.add_argument("--dt", type=positive, default=None, metavar="S", help="time step; None: chosen automatically")
+    group.add_argument("--dt", type=positive, default=None, metavar="S",
+                       help="time step, the largest of implicit ones; None: chosen automatically")
     group.add_argument("--safety", type=positive, default=0.8, metavar="SHARE",
                        help="time step chosen automatically, over the estimated stable one")
     group.add_argument("--points", type=count, default=276, metavar="N", help="material points of a disc")
@@ -197,11 +209,46 @@ def engine_settings(options):
 
 
 def refuse_what_is_not_there(options):
-    """InputError for options that are announced but not there yet."""
-    if getattr(options, "integrator", "explicit") == "implicit":
-        raise InputError("--integrator implicit is not there yet: use explicit.")
-    if getattr(options, "quasistatic", False):
-        raise InputError("--quasistatic is not there yet: leave it away and choose a small --speed.")
+    """InputError for options that are announced but not there yet, or have no meaning together."""
+    if options.quasistatic and options.integrator == "explicit":
+        if "integrator" in options.given:
+            raise InputError("--quasistatic goes without inertia, which --integrator explicit cannot: use implicit.")
+        options.integrator = "implicit"
+    if options.formulation == "updated" and options.integrator == "implicit":
+        raise InputError("--formulation updated with --integrator implicit is not there yet: use total.")
+
+
+def choose_method(options, step):
+    """The arguments of softEngines for the time integration. `step`: length of an implicit step that follows the loading
+    well [s]. Resolves --integrator auto: prints what it picked and why."""
+    if options.integrator == "auto" and options.formulation == "updated":
+        options.integrator = "explicit"
+        print("--integrator auto: explicit, since --formulation updated is not there for implicit steps")
+    if options.integrator == "auto":
+        ratio = step / _explicit_step()
+        options.integrator = "implicit" if options.quasistatic or ratio > STEPS_OF_AN_IMPLICIT_ONE else "explicit"
+        print(f"--integrator auto: {options.integrator}, since an implicit step of {step:.2g} s stands for {ratio:.0f} "
+              f"explicit ones and costs about as much as {STEPS_OF_AN_IMPLICIT_ONE}"
+              f"{'; --quasistatic asks for it' if options.quasistatic else ''}")
+    if options.integrator == "explicit":
+        return {"dt": options.dt}
+    return {"dt": options.dt or step, "integrator": "implicit", "theta": options.theta, "quasistatic": options.quasistatic}
+
+
+def _explicit_step():
+    """About the stable step of the soft grains of the scene, from cell widths and speeds of sound [s]."""
+    least = float("inf")
+    for body in O.bodies:
+        if isinstance(body.shape, wrapper.SoftGrain):
+            least = min(least, 0.6 * body.shape.cellWidth() / math.sqrt(_wave_modulus(body.mat) / body.mat.density))
+    return least
+
+
+def _wave_modulus(material):
+    """lambda + 2 mu at small strains [Pa]."""
+    if isinstance(material, wrapper.NeoHookeanMat):
+        return material.lambda_ + 2 * material.mu
+    return 2 * material.c + 4 * material.c2 + 4 * (material.c1 + material.c2)
 
 
 def use_threads(wanted):

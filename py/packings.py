@@ -33,13 +33,22 @@ class SoftPacking:
         soft = self.integrator
         return {"kinetic_J": soft.kineticEnergy(), "elastic_J": soft.elasticEnergy(),
                 "external_work_J": soft.externalWork, "friction_J": soft.frictionDissipation,
-                "contact_dissipation_J": soft.contactDissipation}
+                "contact_dissipation_J": soft.contactDissipation,
+                "numerical_dissipation_J": getattr(soft, "numericalDissipation", 0.0)}
 
     def solver(self):
         """State of the solver in the last step: csv columns."""
         soft = self.integrator
         return {"min_J": soft.minJ(), "max_penetration_over_R": soft.maxPenetration(),
-                "solver_residual": soft.residual()}
+                "solver_residual": soft.residual(), **self._implicit()}
+
+    def _implicit(self):
+        """The same of implicit steps alone."""
+        soft = self.integrator
+        if not isinstance(soft, wrapper.SoftImplicitIntegrator):
+            return {}
+        return {"contact_distance_over_R": soft.contactDistance, "substeps": soft.totalSubsteps,
+                "cut_steps": soft.totalCuts}
 
     def total_sweeps(self):
         return self.integrator.totalIterations

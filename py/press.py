@@ -3,7 +3,8 @@
 
 A row of the csv stands for one window of time, between two outputs. strain, solid_fraction, log_volume_change and the
 stresses are means over the window, coordination, rattlers and contacts those of its middle: they belong together.
-time_s, energies, dissipations, min_J, penetration and dt_s are those of its end."""
+time_s, energies, dissipations, min_J, penetration and dt_s are those of its end; substeps and cut_steps, of implicit
+steps, are counted since the start."""
 import math
 
 import numpy
@@ -15,7 +16,13 @@ from .stepping import WallForces
 OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
 COLUMNS = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
            "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
-           "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s").split(",")
+           "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s,numerical_dissipation_J,"
+           "contact_distance_over_R,substeps,cut_steps").split(",")
+
+
+def implicit_step(box, speed):
+    """Length of an implicit step that follows the loading well, half a row at the start [s]."""
+    return box["height"] * OUTPUT_STRAIN / 2 / speed
 
 
 class Press:
@@ -25,11 +32,13 @@ class Press:
     packing  of packings.py
     box      dict: width [m], height at the start [m], body ids of the walls bottom and top
     speed    of the top wall, downwards [m/s]
+    longest  implicit steps: the longest [s]
     """
 
-    def __init__(self, run, packing, box, speed):
+    def __init__(self, run, packing, box, speed, longest=None):
         self.run, self.packing, self.box, self.speed = run, packing, box, speed
-        self.forces = WallForces({"bottom": (box["bottom"], 1), "top": (box["top"], 1)}, run.interrupted)
+        self.forces = WallForces({"bottom": (box["bottom"], 1), "top": (box["top"], 1)}, run.interrupted,
+                                 longest)
         if run.resumed:
             self.memory = run.memory
             self.forces.restore(self.memory["forces"])
@@ -66,7 +75,7 @@ class Press:
         O.bodies[self.box["top"]].state.vel = (0, -self.speed, 0)
         self.memory = self.run.memory
         self.memory.update(window=0, middle=None, fraction=0.0, stress=0.0, steps=0, jammed=False, work=0.0)
-        self.run.first_step()
+        self.forces.first_step(self.run)
         self.forces.require_steps(self._time_of(1), self.speed)
         self.run.begin()
         area = self.packing.area()
@@ -88,7 +97,8 @@ class Press:
         memory["work"] += self.forces.impulse("top") * self.speed
         energies = {"external_work_J": memory["work"], **packing.energies()}
         balance = (self._stored_energy(energies) - memory["energy0"] + energies["friction_J"]
-                   + energies["contact_dissipation_J"] - energies["external_work_J"])
+                   + energies["contact_dissipation_J"] + energies.get("numerical_dissipation_J", 0.0)
+                   - energies["external_work_J"])
         solver = packing.solver()
         solver["max_penetration_over_R"] = max(solver["max_penetration_over_R"], memory["middle"]["penetration"])
         coordination, rattlers, contacts = memory["middle"]["contacts"]

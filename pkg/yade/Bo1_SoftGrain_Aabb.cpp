@@ -24,7 +24,7 @@ void Bo1_SoftGrain_Aabb::go(const shared_ptr<Shape>&, shared_ptr<Bound>& bound, 
         return;
     }
     const auto& surface = state->grain.surface;
-    const Real margin = 0.01 * surface.size;
+    const Real margin = 0.01 * surface.size + 2 * surface.ahead;
     state->insideUntil = 0;
     bound->min = Vector3r(surface.min[0] - margin, surface.min[1] - margin, se3.position[2] - surface.size);
     bound->max = Vector3r(surface.max[0] + margin, surface.max[1] + margin, se3.position[2] + surface.size);

@@ -25,9 +25,11 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const shar
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     geom.withPlane = true;
-    const int side = wall.sense != 0 ? wall.sense : grain.motion.position[wall.axis] >= state1.pos[wall.axis] ? 1 : -1;
+    geom.axis = wall.axis;
+    geom.side = wall.sense != 0 ? wall.sense : grain.motion.position[wall.axis] >= state1.pos[wall.axis] ? 1 : -1;
     Problems::guard([&] {
-        geom.plane.update(grain.surface, wall.axis, state1.pos[wall.axis], side, std::abs(state1.vel[wall.axis]), scene->dt);
+        geom.plane.update(grain.surface, wall.axis, state1.pos[wall.axis], geom.side, std::abs(state1.vel[wall.axis]),
+                          scene->dt);
     });
     return interaction->isReal() || !geom.plane.points.empty();
 }

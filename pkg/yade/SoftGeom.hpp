@@ -16,6 +16,7 @@ public:
     /// The rigid body's boundary, if it has one of its own.
     softgrain::Surface<2> rigid;
     bool withPlane = false;
+    int axis = 0, side = 1; ///< of the wall: its normal, and where the grain is
 
     std::vector<softgrain::ContactPoint<2>>& points() { return withPlane ? plane.points : pair.points; }
     /// The bodies are so near that the interaction is worth keeping.

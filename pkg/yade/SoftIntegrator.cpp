@@ -6,43 +6,18 @@
 #include "Problems.hpp"
 #include "SceneCheck.hpp"
 #include "SoftTimeStepper.hpp"
+#include "Stopwatch.hpp"
 
 #include "solver/matrix_form.hpp"
 
 #include <core/InteractionLoop.hpp>
 #include <core/Omega.hpp>
 
-#include <chrono>
 #include <utility>
 
 namespace yade {
 
 YADE_PLUGIN((SoftIntegrator));
-
-namespace {
-
-    /// Adds the time since the last call to a stage.
-    class Stopwatch {
-    public:
-        explicit Stopwatch(std::vector<Real>& stages)
-            : stages_(stages)
-            , last_(Clock::now())
-        {
-        }
-        void stage(int index)
-        {
-            const auto now = Clock::now();
-            stages_[index] += std::chrono::duration<Real>(now - last_).count();
-            last_ = now;
-        }
-
-    private:
-        using Clock = std::chrono::steady_clock;
-        std::vector<Real>& stages_;
-        Clock::time_point last_;
-    };
-
-} // namespace
 
 SoftIntegrator::~SoftIntegrator() = default;
 
@@ -77,14 +52,13 @@ void SoftIntegrator::advance(double dt)
     assembly_->predict(dt, gravity.head<2>(), threads());
     watch.stage(0);
 
-    pairs_.pose(*scene, touchingPairs(), recovery);
+    pairs_.collect(*scene, touchingPairs());
+    pairs_.pose(*scene, recovery);
     if (fresh_)
         pairs_.refuseOverlaps();
     else
         pairs_.refuseLeaksAtPoints(0.1);
-    if (std::exchange(interactionCount_, scene->interactions->size()) != scene->interactions->size()
-        || scene->iter % checkInterval == 0)
-        refuseStrangers();
+    refuseStrangersNowAndThen();
     watch.stage(1);
 
     solver_.tolerance = tolerance;
@@ -98,6 +72,8 @@ void SoftIntegrator::advance(double dt)
 
     softgrain::EnergyBalance balance;
     softgrain::Assembly<2>::account(pairs_.problem, balance);
+    pairs_.load();
+    pairs_.add(dt, 1);
     pairs_.deliver(*scene);
     const auto hold = [&](softgrain::Grain<2>& grain) {
         loads_.hold(soft_.of(grain.id), dt);
@@ -175,8 +151,11 @@ void SoftIntegrator::adopt()
     std::vector<softgrain::Grain<2>*> grains;
     for (SoftState* state : soft_.states)
         grains.push_back(&state->grain);
+    for (auto* grain : grains)
+        grain->surface.ahead = lookAhead() * grain->radius;
     assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
     pairs_.clear();
+    assembled();
     evaluate();
 }
 
@@ -228,6 +207,13 @@ void SoftIntegrator::requireSaneAttributes() const
     demand(checkInterval > 0, "checkInterval", checkInterval, "be 1 or more");
     demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2],
            "be 0 and the others finite: grains stay in the xy-plane");
+}
+
+void SoftIntegrator::refuseStrangersNowAndThen()
+{
+    if (std::exchange(interactionCount_, scene->interactions->size()) != scene->interactions->size()
+        || scene->iter % checkInterval == 0)
+        refuseStrangers();
 }
 
 /// Bodies that no functor brings into contact with soft grains.

@@ -23,14 +23,14 @@ public:
 
     /// Renews elastic energies and smallest stretches.
     void evaluate();
-    Real elasticEnergy();
-    Real kineticEnergy();
+    virtual Real elasticEnergy();
+    virtual Real kineticEnergy();
     Real solidArea();
     Real minJ() const;
     Real maxPenetration() const { return pairs_.deepest; }
-    Real residual() const;
+    virtual Real residual() const;
     boost::python::list contacts() const;
-    boost::python::tuple contactProblem() const;
+    virtual boost::python::tuple contactProblem() const;
     void postLoad(SoftIntegrator&);
 
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
@@ -83,17 +83,18 @@ public:
                          &SoftIntegrator::contactProblem,
                          "The last step's contact problem as a matrix and vectors; softgrain.fclib.lastProblem() gives it as numpy arrays."));
 
-private:
+protected:
     void adopt();
-    bool knowsAllBodies();
-    void takeIn(const shared_ptr<Body>& body);
-    void advance(double dt);
-    void requireSaneAttributes() const;
-    void requireStableStep();
-    void refuseStrangers() const;
+    /// How far to look for contacts besides what speeds tell [radius].
+    virtual Real lookAhead() const { return 0; }
+    /// The assembly is new.
+    virtual void assembled() { }
+    virtual void advance(double dt);
+    virtual void requireSaneAttributes() const;
+    virtual void requireStableStep();
+    void refuseStrangersNowAndThen();
     std::vector<TouchingPair> touchingPairs() const;
-    void finish(int grain, double dt);
-    void trackEnergies();
+    virtual void trackEnergies();
     int threads() const;
 
     mutable std::recursive_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask
@@ -102,10 +103,17 @@ private:
     SoftLoads loads_ { soft_ };
     SoftPairs pairs_ { soft_ };
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
+    bool fresh_ = false; ///< grains have come since the last step, or were moved by hand
+
+private:
+    bool knowsAllBodies();
+    void takeIn(const shared_ptr<Body>& body);
+    void refuseStrangers() const;
+    void finish(int grain, double dt);
+
     softgrain::NonlinearGaussSeidel<2> solver_;
     softgrain::SmallestCriticalStep<2> smallestCriticalStep_;
     size_t interactionCount_ = 0; ///< in the last step
-    bool fresh_ = false;          ///< grains have come since the last step, or were moved by hand
     Real evaluatedJ_ = 1;         ///< smallest J when the stable step was evaluated
     long evaluatedStep_ = -1;     ///< and the step of it
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;

@@ -19,6 +19,8 @@ public:
     void hold(int grain, double dt);
     /// Counts the work of half a step with the velocities of now.
     void work(int grain, double dt);
+    /// Counts the work on the way [m] and turn [rad] of a grain.
+    void work(int grain, const Vector3r& way) { loads_[size_t(grain)].work += loads_[size_t(grain)].on.dot(way); }
     /// Work of all grains since the last call [J/m], velocities set by hand included.
     Real takeWork();
 

@@ -9,7 +9,7 @@ namespace {
     Vector3r inSpace(const softgrain::Vec<2>& v) { return Vector3r(v[0], v[1], 0); }
 } // namespace
 
-void SoftPairs::pose(const Scene& scene, std::vector<TouchingPair>&& touching, Real recovery)
+void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching, bool goOn)
 {
     // The same order for every number of threads: by the first soft grain, and by the other body.
     std::vector<std::array<int, 3>> order; // the ids, and the place in `touching`
@@ -19,6 +19,7 @@ void SoftPairs::pose(const Scene& scene, std::vector<TouchingPair>&& touching, R
     }
     std::sort(order.begin(), order.end());
 
+    const std::vector<Pair> old = std::move(pairs_);
     pairs_.clear();
     problem.bodies.clear();
     problem.contacts.clear();
@@ -26,7 +27,14 @@ void SoftPairs::pose(const Scene& scene, std::vector<TouchingPair>&& touching, R
         problem.bodies.push_back(&state->grain.surface);
     for (const auto& place : order)
         take(scene, std::move(touching[place[2]]));
+    if (!goOn) return;
+    for (const Pair& known : old)
+        for (Pair& pair : pairs_)
+            if (pair.id1 == known.id1 && pair.id2 == known.id2) pair.sum = known.sum;
+}
 
+void SoftPairs::pose(const Scene& scene, Real recovery)
+{
     deepest = 0;
     for (const Pair& pair : pairs_)
         for (const auto& point : pair.geom->points()) {
@@ -54,7 +62,7 @@ void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
 {
     const int one = soft_.of(touching.id1), two = soft_.of(touching.id2);
     if (two < 0) return; // erased since
-    Pair pair { std::move(touching), nullptr, soft_.states[two], nullptr, one, two };
+    Pair pair { std::move(touching), nullptr, soft_.states[two], nullptr, one, two, {} };
     if (one >= 0)
         pair.first = soft_.states[one];
     else {
@@ -120,42 +128,51 @@ void SoftPairs::refuseLeak(const Pair& pair, Real depth, Real most) const
                                        "impact near the wave speed, or a body moved by hand.");
 }
 
-void SoftPairs::deliver(Scene& scene)
+void SoftPairs::load()
+{
+    for (const auto& contact : problem.contacts) {
+        if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
+        problem.bodies[contact.body]->strike(contact.point, contact.impulse);
+        if (contact.other >= 0)
+            for (int k = 0; k < softgrain::face_vertices<2>; ++k)
+                problem.bodies[contact.other]->strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
+    }
+}
+
+void SoftPairs::add(double dt, double share)
 {
     size_t index = 0;
-    for (const Pair& pair : pairs_) {
-        softgrain::Vec<2> normal = softgrain::Vec<2>::Zero(), shear = normal, place = normal;
-        Real weight = 0, moment = 0;
+    for (Pair& pair : pairs_)
         for (auto& point : pair.geom->points()) {
             const auto& contact = problem.contacts[index++];
-            point.force = contact.impulse / scene.dt;
+            point.force = contact.impulse / dt;
             if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
-            auto& body = *problem.bodies[contact.body];
-            body.strike(contact.point, contact.impulse);
-            if (contact.other >= 0)
-                for (int k = 0; k < softgrain::face_vertices<2>; ++k)
-                    problem.bodies[contact.other]->strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
             // on body id2
             const bool onSecond = contact.body == pair.body2;
-            const softgrain::Vec<2> force = onSecond ? point.force : softgrain::Vec<2>(-point.force);
-            const softgrain::Vec<2> along = force.dot(point.normal) * point.normal;
-            const softgrain::Vec<2> where = body.x(contact.point);
+            const softgrain::Vec<2> force = share * (onSecond ? point.force : softgrain::Vec<2>(-point.force));
+            const softgrain::Vec<2> along = force.dot(contact.normal) * contact.normal;
+            const softgrain::Vec<2> where = problem.bodies[contact.body]->x(contact.point);
             const Real size = along.norm();
-            normal += along;
-            shear += force - along;
-            place += size * where;
-            weight += size;
+            pair.sum.normal += along;
+            pair.sum.shear += force - along;
+            pair.sum.place += size * where;
+            pair.sum.weight += size;
             if (pair.rigid) {
                 const softgrain::Vec<2> arm = where - pair.rigid->pos.head<2>();
-                moment -= arm[0] * force[1] - arm[1] * force[0];
+                pair.sum.moment -= arm[0] * force[1] - arm[1] * force[0];
             }
         }
-        pair.phys->normalForce = inSpace(normal);
-        pair.phys->shearForce = inSpace(shear);
-        pair.phys->contactPoint = weight > 0 ? inSpace(place / weight) : Vector3r::Zero();
-        if (pair.rigid && weight > 0) {
-            scene.forces.addForce(pair.id1, -inSpace(normal + shear));
-            scene.forces.addTorque(pair.id1, Vector3r(0, 0, moment));
+}
+
+void SoftPairs::deliver(Scene& scene)
+{
+    for (const Pair& pair : pairs_) {
+        pair.phys->normalForce = inSpace(pair.sum.normal);
+        pair.phys->shearForce = inSpace(pair.sum.shear);
+        pair.phys->contactPoint = pair.sum.weight > 0 ? inSpace(pair.sum.place / pair.sum.weight) : Vector3r::Zero();
+        if (pair.rigid && pair.sum.weight > 0) {
+            scene.forces.addForce(pair.id1, -inSpace(pair.sum.normal + pair.sum.shear));
+            scene.forces.addTorque(pair.id1, Vector3r(0, 0, pair.sum.moment));
         }
     }
     scene.forces.sync(); // or they would add to those of the next step

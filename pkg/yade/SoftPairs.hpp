@@ -44,9 +44,31 @@ public:
     softgrain::ContactProblem<2> problem;
     Real deepest = 0; ///< penetration of a contact point [radius of the smaller grain]
 
-    /// Takes the pairs, in any order, and poses their problem. Shares of `recovery` of penetrations are taken back.
-    void pose(const Scene& scene, std::vector<TouchingPair>&& touching, Real recovery);
-    /// Impulses to the surfaces, forces to the interactions and to the rigid bodies.
+    struct Pair : TouchingPair {
+        SoftState* first; ///< null: a rigid body
+        SoftState* second;
+        const State* rigid;
+        int body1, body2; ///< places in the contact problem; body1 -1: a plane
+        struct Sum {
+            using Vec = softgrain::Vec<2>;
+            Vec normal = Vec::Zero(), shear = Vec::Zero(); ///< forces on body id2 [N/m]
+            Vec place = Vec::Zero();                       ///< of the contact points, weighted by normal forces [N]
+            Real weight = 0, moment = 0;                   ///< sum of normal forces [N/m]; torque on the rigid body [N]
+        } sum;
+        /// Radius of the smaller grain.
+        Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
+    };
+
+    /// Takes the pairs, in any order, and the bodies of their problem; pairs that go on within a step keep their sums.
+    void collect(const Scene& scene, std::vector<TouchingPair>&& touching, bool goOn = false);
+    std::vector<Pair>& pairs() { return pairs_; }
+    /// Poses the problem of the contact points found at the start of a step. Shares of `recovery` of penetrations are taken back.
+    void pose(const Scene& scene, Real recovery);
+    /// Impulses to the surfaces.
+    void load();
+    /// Adds the forces of a step of length dt, times its share of the time, to the pairs; start values of the next step.
+    void add(double dt, double share);
+    /// Forces of the pairs to the interactions and to the rigid bodies.
     void deliver(Scene& scene);
     /// Throws when bodies got past each other by `most` radii: at the contact points; anywhere.
     void refuseLeaksAtPoints(Real most) const;
@@ -57,14 +79,6 @@ public:
     boost::python::list withForce() const;
 
 private:
-    struct Pair : TouchingPair {
-        SoftState* first; ///< null: a rigid body
-        SoftState* second;
-        const State* rigid;
-        int body1, body2; ///< places in the contact problem; body1 -1: a plane
-        /// Radius of the smaller grain.
-        Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
-    };
     void take(const Scene& scene, TouchingPair&& touching);
     void refuseLeak(const Pair& pair, Real depth, Real most) const;
 

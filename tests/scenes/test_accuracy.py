@@ -47,7 +47,7 @@ def the_cheapest_setting_is_taken(checks):
 def builders_take_an_accuracy(checks):
     chosen = presets.settings("test", "draft")
     for body in (softDisc((0, 0), 1e-3, NeoHookeanMat(), accuracy="draft"),
-                 softCloud(8e-3, 15, material=MooneyRivlinMat(), accuracy="draft")[0][0]):
+                 softCloud(4e-3, 6, material=MooneyRivlinMat(), accuracy="draft")[0][0]):
         checks.that("points", body.shape.points == chosen["points"])
         checks.close_to("spacing", body.shape.surfaceSpacing, chosen["surface_spacing"], 1e-12)
     checks.that("without one", softDisc((0, 0), 1e-3, NeoHookeanMat()).shape.points == 276)

@@ -30,7 +30,7 @@ namespace {
 
 template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt)
 {
-    return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size;
+    return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size + a.ahead;
 }
 
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller)
@@ -54,12 +54,26 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
     }
 }
 
+namespace {
+
+    /// A rigid polygon shows its faces, however thin it is.
+    template <int Dim> bool second_is_smaller(const Surface<Dim>& first, const Surface<Dim>& second)
+    {
+        return second.mobility > 0 && (first.mobility == 0 || second.size < first.size);
+    }
+
+} // namespace
+
 template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
 {
-    // a rigid polygon shows its faces, however thin it is
-    const bool second_smaller = second.mobility > 0 && (first.mobility == 0 || second.size < first.size);
+    const bool second_smaller = second_is_smaller(first, second);
+    look(first, second, reach(second_smaller ? second : first, (second_smaller ? first : second).speed, dt));
+}
+
+template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const Surface<Dim>& second, double near)
+{
+    const bool second_smaller = second_is_smaller(first, second);
     const Surface<Dim>&small = second_smaller ? second : first, &large = second_smaller ? first : second;
-    const double near = reach(small, large.speed, dt);
     if (first.travel + second.travel + near >= memory.valid_until) {
         const double ahead = skin * small.size;
         search(small, large, false, near + ahead, memory.near[0]);
@@ -76,12 +90,13 @@ template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, con
         for (Candidate& candidate : memory.near[mine_small ? 0 : 1]) {
             if (travel + near < candidate.clear_until) continue;
             Projection at = project(other, mine.x(candidate.point), candidate.face, candidate.place);
-            if (!mine_small) at.gap += allowance(mine, candidate.point, other);
+            const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
+            at.gap += let;
             candidate.face = at.segment;
             candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
             if (at.gap >= near) continue;
-            fresh.push_back({ candidate.point, on_second, at.segment, at.vertex, at.weight, at.normal, at.gap });
+            fresh.push_back({ candidate.point, on_second, at.segment, at.vertex, at.weight, at.normal, at.gap, let });
         }
     }
     carry_forces(points, fresh);
@@ -106,7 +121,11 @@ template <int Dim>
 void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed,
                                 double dt)
 {
-    const double near = reach(grain, plane_speed, dt);
+    look(grain, axis, position, side, reach(grain, plane_speed, dt));
+}
+
+template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int axis, double position, int side, double near)
+{
     thread_local std::vector<ContactPoint<Dim>> fresh;
     fresh.clear();
     const double closest = side > 0 ? grain.min[axis] - position : position - grain.max[axis];
@@ -114,7 +133,7 @@ void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double posi
     if (closest < near)
         for (int p = 0; p < grain.count; ++p) {
             const double gap = side * (grain.x(p)[axis] - position);
-            if (gap < near) fresh.push_back({ p, false, 0, {}, {}, side * Vec<Dim>::Unit(axis), gap });
+            if (gap < near) fresh.push_back({ p, false, 0, {}, {}, side * Vec<Dim>::Unit(axis), gap, 0 });
         }
     carry_forces(points, fresh);
     points.assign(fresh.begin(), fresh.end());

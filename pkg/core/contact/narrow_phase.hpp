@@ -20,6 +20,7 @@ template <int Dim> struct ContactPoint {
     std::array<double, face_vertices<Dim>> weight; ///< of the vertices at the foot of the point, sum 1
     Vec<Dim> normal;                               ///< from the face to the point, unit
     double gap;                                    ///< [m], negative: penetration
+    double let;                                    ///< how far the point may enter, in the gap already; see allowance() [m]
     Vec<Dim> force = Vec<Dim>::Zero();             ///< [N] (N/m in 2D) of the last step: where the solver starts
 };
 
@@ -36,6 +37,8 @@ public:
     /// Points of the smaller body meet the larger one's faces; sharp corners of the larger meet the smaller's. Other
     /// points of the larger may enter by `allowance`, and no further: gaps count from there.
     void update(const Surface<Dim>& first, const Surface<Dim>& second, double dt);
+    /// The same for gaps below `near` [m].
+    void look(const Surface<Dim>& first, const Surface<Dim>& second, double near);
 
     std::vector<ContactPoint<Dim>> points;
     /// Points of the one are so near the other that the pair is worth keeping.
@@ -67,6 +70,8 @@ template <int Dim> class PlaneContacts {
 public:
     /// Contact points with the plane x[axis] = position, grains on the `side` (+1 or -1) of it.
     void update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt);
+    /// The same for gaps below `near` [m].
+    void look(const Surface<Dim>& grain, int axis, double position, int side, double near);
 
     std::vector<ContactPoint<Dim>> points;
     bool near() const { return near_; }

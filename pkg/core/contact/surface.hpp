@@ -20,6 +20,7 @@ template <int Dim> struct Surface {
     Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
     double speed = 0;                                        ///< largest speed of a point [m/s]
     double travel = 0;                                       ///< bound on the path of any point since the start [m]
+    double ahead = 0;                                        ///< further look for contacts, of long steps [m]
     double size = 0;                                         ///< radius, or half the least width [m]
     double mobility = 0;                                     ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
     const SurfaceOperator<Dim>* response = nullptr;          ///< its Delassus operator; none for rigid bodies

@@ -16,6 +16,8 @@
 //     shear_modulus     mu of the small-strain limit [Pa]
 //     energy            w(F) [J/m3]
 //     stress            dw/dF [Pa], given cof F and 1/J
+//     volumetric_curvature  U''(J) [Pa]
+//     plane_tangent     d2w/dF2 in the plane [Pa], given 1/J too
 //     wave_modulus      lambda + 2 mu of the small-strain limit [Pa]
 //     complaint         why the constants give an unstable energy, or ""
 #pragma once
@@ -26,3 +28,15 @@
 #include <array>
 #include <cmath>
 #include <string>
+
+namespace softgrain {
+
+/// Second derivative of an isotropic energy in the plane:
+///     d2w/dF2 = identity 1 + cofactor cof F (x) cof F + bend d2J/dF2.
+/// All three depend on J alone where w is linear in tr C besides a function of J. d2J/dF2 is constant, with eigenvalues +1
+/// (dilatation and rotation) and -1 (the two shears).
+template <class T> struct PlaneTangent {
+    T identity, cofactor, bend;
+};
+
+} // namespace softgrain

@@ -22,6 +22,7 @@ struct MooneyRivlin {
     {
         return 2.0 * p[2] * (J - 1.0);
     }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_curvature(const T* p, const T&, const T&) { return 2.0 * p[2]; }
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
     {
@@ -48,6 +49,13 @@ struct MooneyRivlin {
                     FC += F.at[i][m] * C.at[m][j];
                 P.at[i][j] = a * F.at[i][j] - b * FC - k * cof.at[i][j];
             }
+    }
+
+    /// In the plane I2 = tr C + J^2 - 1 and so w = (c1 + c2) (tr C - 3) + c2 (J^2 - 1) - d ln J, tr C of three dimensions.
+    template <class T> static SOFTGRAIN_INLINE PlaneTangent<T> plane_tangent(const T* p, const T& J, const T& inverse_J)
+    {
+        const T d = 2.0 * (p[0] + 2.0 * p[1]);
+        return { 2.0 * (p[0] + p[1]), 2.0 * p[1] + d * inverse_J * inverse_J, 2.0 * p[1] * J - d * inverse_J };
     }
 
     /// Small strains: mu = 2 (c1 + c2), lambda = 2 c + 4 c2.

@@ -23,6 +23,11 @@ struct NeoHookean {
         return p[0] * logarithm(J) * inverse_J;
     }
 
+    template <class T> static SOFTGRAIN_INLINE T volumetric_curvature(const T* p, const T& J, const T& inverse_J)
+    {
+        return p[0] * (1.0 - logarithm(J)) * inverse_J * inverse_J;
+    }
+
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
     {
         return p[1] * (0.5 * (first_invariant(F) - 3.0) - logarithm(determinant(F)));
@@ -35,6 +40,11 @@ struct NeoHookean {
         for (int i = 0; i < Dim; ++i)
             for (int j = 0; j < Dim; ++j)
                 P.at[i][j] = p[1] * F.at[i][j] - k * cof.at[i][j];
+    }
+
+    template <class T> static SOFTGRAIN_INLINE PlaneTangent<T> plane_tangent(const T* p, const T&, const T& inverse_J)
+    {
+        return { p[1], p[1] * inverse_J * inverse_J, -p[1] * inverse_J };
     }
 
     static double wave_modulus(const double* p) { return p[0] + 2 * p[1]; }

@@ -221,32 +221,9 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
             kernels.push[batch.wide()](batch.data());
         }
         kernels.drift[batch.wide()](batch.data(), dt);
-        kernels.observe[batch.wide()](batch.data(), batch.sums.data());
-        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
-            Grain<Dim>& grain = *members_[b][lane];
-            Surface<Dim>& surface = grain.surface;
-            double speed2 = 0;
-            Vec<Dim> lo = Vec<Dim>::Constant(1e300), hi = -lo;
-            for (int p = 0; p < surface.count; ++p) {
-                double v2 = 0;
-                for (int d = 0; d < Dim; ++d) {
-                    const size_t i = size_t(Dim) * p + d;
-                    const double x = grain.origin[d] + grain.radius * values[i * lanes + lane];
-                    surface.position[i] = x;
-                    lo[d] = std::min(lo[d], x);
-                    hi[d] = std::max(hi[d], x);
-                    v2 += surface.velocity[i] * surface.velocity[i];
-                }
-                speed2 = std::max(speed2, v2);
-            }
-            surface.min = lo;
-            surface.max = hi;
-            surface.speed = std::sqrt(speed2);
-            surface.travel += dt * surface.speed;
-            grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
-            sound[b] &= is_finite(grain) && !leaps(grain, dt);
-            if (after) after(grain);
-        }
+        sound[b] = observe(b, dt, after);
+        for (const Grain<Dim>* grain : members_[b])
+            sound[b] &= !leaps(*grain, dt);
     }
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (int g = 0; g < single; ++g) {
@@ -260,13 +237,71 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         sound[count + g] = is_finite(grain) && !leaps(grain, dt) && complaint[g].empty();
         if (after && sound[count + g]) after(grain);
     }
+    report_unsound(sound, dt);
+    for (int g = 0; g < single; ++g)
+        if (!complaint[g].empty()) throw SimulationError(whose(updated_[g]->id) + ": " + complaint[g] + ".");
+}
+
+template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit& after)
+{
+    std::vector<char> sound(batches_.size(), true);
+    const int count = int(batches_.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int b = 0; b < count; ++b) {
+        Batch<Dim>& batch = *batches_[b];
+        motion_kernels<Dim>().extend[batch.wide()](batch.data());
+        batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
+        least_J_[b] = 1;
+        for (size_t lane = 0; lane < members_[b].size(); ++lane)
+            least_J_[b] = std::min(least_J_[b], members_[b][lane]->min_J = batch.per_lane[lane]);
+        sound[b] = observe(b, dt, after);
+    }
+    report_unsound(sound, dt);
+}
+
+/// Surfaces and motions of a batch from its nodes; false when something is wrong with them.
+template <int Dim> bool Assembly<Dim>::observe(int b, double dt, const Visit& after)
+{
+    Batch<Dim>& batch = *batches_[b];
+    const int lanes = batch.lanes;
+    const double* values = batch.surface();
+    bool sound = true;
+    motion_kernels<Dim>().observe[batch.wide()](batch.data(), batch.sums.data());
+    for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+        Grain<Dim>& grain = *members_[b][lane];
+        Surface<Dim>& surface = grain.surface;
+        double speed2 = 0;
+        Vec<Dim> lo = Vec<Dim>::Constant(1e300), hi = -lo;
+        for (int p = 0; p < surface.count; ++p) {
+            double v2 = 0;
+            for (int d = 0; d < Dim; ++d) {
+                const size_t i = size_t(Dim) * p + d;
+                const double x = grain.origin[d] + grain.radius * values[i * lanes + lane];
+                surface.position[i] = x;
+                lo[d] = std::min(lo[d], x);
+                hi[d] = std::max(hi[d], x);
+                v2 += surface.velocity[i] * surface.velocity[i];
+            }
+            speed2 = std::max(speed2, v2);
+        }
+        surface.min = lo;
+        surface.max = hi;
+        surface.speed = std::sqrt(speed2);
+        surface.travel += dt * surface.speed;
+        grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
+        sound &= is_finite(grain);
+        if (after) after(grain);
+    }
+    return sound;
+}
+
+template <int Dim> void Assembly<Dim>::report_unsound(const std::vector<char>& sound, double dt)
+{
     if (std::all_of(sound.begin(), sound.end(), [](char is) { return is; })) return;
     for (Grain<Dim>* grain : grains_) {
         if (!is_finite(*grain)) report_not_finite(*grain);
         if (leaps(*grain, dt)) report_leap(*grain, dt);
     }
-    for (int g = 0; g < single; ++g)
-        if (!complaint[g].empty()) throw SimulationError(whose(updated_[g]->id) + ": " + complaint[g] + ".");
 }
 
 template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)

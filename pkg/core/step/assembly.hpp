@@ -38,7 +38,10 @@ public:
     /// shown to `before` and, moved, to `after` while it is in cache, by the thread that works on it; neither may throw.
     /// Throws SimulationError when a value is no longer finite.
     void correct(double dt, int threads, const Visit& before = {}, const Visit& after = {});
-    /// Smallest J of a material point at the last predict, 1 at most.
+    /// Takes nodes that another scheme has moved, with their velocities: smallest J, surfaces and motions. `after` and
+    /// errors as in correct.
+    void renew(double dt, int threads, const Visit& after = {});
+    /// Smallest J of a material point at the last predict or renew, 1 at most.
     double min_J() const;
     /// Work of the solved contacts over the step, with the mean of the velocities before and after it.
     static void account(const ContactProblem<Dim>& problem, EnergyBalance& balance);
@@ -50,8 +53,14 @@ public:
     void evaluate_energy(double dt, int threads);
 
     const std::vector<Grain<Dim>*>& grains() const { return grains_; }
+    int batch_count() const { return int(batches_.size()); }
+    Batch<Dim>& batch(int b) { return *batches_[b]; }
+    const std::vector<Grain<Dim>*>& members(int b) const { return members_[b]; }
 
 private:
+    bool observe(int b, double dt, const Visit& after);
+    void report_unsound(const std::vector<char>& sound, double dt);
+
     std::vector<Grain<Dim>*> grains_;
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch

@@ -49,17 +49,22 @@ template <int Dim> struct MotionSums {
 /// A kernel for batches of one lane and of eight.
 template <int Dim, class... Arguments> using KernelPair = std::array<void (*)(const KernelData<Dim>&, Arguments...), 2>;
 
+template <int Dim> struct StiffnessPattern;
+
 /// Kernels of one law.
 template <int Dim> struct LawKernels {
     const char* name;
     int parameter_count;
     const char* const* parameter_names;
     double (*wave_modulus)(const double* parameters);
+    double (*shear_modulus)(const double* parameters);
     std::string (*complaint)(const double* parameters);
     /// Internal force on the masters into `force`; smallest J of a point into min_J [lane].
     KernelPair<Dim, double*> internal_force;
     /// Elastic energy per radius^Dim [J/m^Dim] and smallest principal stretch, [lane].
     KernelPair<Dim, double*, double*> energy;
+    /// Stiffness with an inertia per unit of node mass, [lane] [Pa]; see stiffness_kernel.hpp.
+    KernelPair<Dim, const StiffnessPattern<Dim>*, double*, double*> stiffness;
     /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa].
     Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
     /// The same as in internal_force for the points of one region: first Piola stresses times `scale` in place of their

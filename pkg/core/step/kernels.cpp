@@ -1,76 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Compiles every kernel for AVX-512, AVX2 and plain x86-64, and picks by the processor when the program starts.
+// The register of material laws, and the kernels in all their versions.
 #include "step/kernels.hpp"
 
 #include "material/mooney_rivlin.hpp"
 #include "material/neo_hookean.hpp"
+#include "step/stiffness_kernel.hpp"
+#include "step/versions.hpp"
 
 namespace softgrain {
 namespace {
-
-    enum class InstructionSet { plain, avx2, avx512 };
-
-    InstructionSet instruction_set()
-    {
-        __builtin_cpu_init();
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")
-            && __builtin_cpu_supports("avx512bw"))
-            return InstructionSet::avx512;
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? InstructionSet::avx2
-                                                                               : InstructionSet::plain;
-    }
-
-    // The same arrays from a further lane on.
-    double* from_lane(double* array, int lane) { return array + lane; }
-    double from_lane(double value, int) { return value; }
-    template <int Dim> KernelData<Dim> from_lane(KernelData<Dim> data, int lane)
-    {
-        for (double** array : { &data.displacement, &data.velocity, &data.force, &data.surface })
-            *array += lane;
-        data.parameters += lane;
-        data.inverse_inertia += lane;
-        return data;
-    }
-
-    /// One kernel for one lane and for eight, in all its versions.
-    template <class Kernel, int Dim, class... Arguments> struct Versions {
-        using Function = void (*)(const KernelData<Dim>&, Arguments...);
-
-        __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(const KernelData<Dim>& data,
-                                                                           Arguments... arguments)
-        {
-            Kernel::template run<Lanes<8>::Value, 8>(data, arguments...);
-        }
-        __attribute__((target("arch=x86-64-v3"))) static void eight_avx2(const KernelData<Dim>& data, Arguments... arguments)
-        {
-            for (int lane = 0; lane < 8; lane += 4)
-                Kernel::template run<Lanes<4>::Value, 8>(from_lane(data, lane), from_lane(arguments, lane)...);
-        }
-        static void eight_plain(const KernelData<Dim>& data, Arguments... arguments)
-        {
-            for (int lane = 0; lane < 8; lane += 2)
-                Kernel::template run<Lanes<2>::Value, 8>(from_lane(data, lane), from_lane(arguments, lane)...);
-        }
-        __attribute__((target("arch=x86-64-v3"))) static void one_avx2(const KernelData<Dim>& data, Arguments... arguments)
-        {
-            Kernel::template run<double, 1>(data, arguments...);
-        }
-        static void one_plain(const KernelData<Dim>& data, Arguments... arguments)
-        {
-            Kernel::template run<double, 1>(data, arguments...);
-        }
-        static std::array<Function, 2> table()
-        {
-            switch (instruction_set()) {
-            case InstructionSet::avx512:
-                return { one_avx2, eight_avx512 };
-            case InstructionSet::avx2:
-                return { one_avx2, eight_avx2 };
-            default:
-                return { one_plain, eight_plain };
-            }
-        }
-    };
 
     template <class Law> Mat<3> cauchy_stress(const double* p, const Mat<3>& deformation, double mean_J)
     {
@@ -109,9 +47,11 @@ namespace {
                  int(Law::parameters.size()),
                  Law::parameters.data(),
                  &Law::wave_modulus,
+                 &Law::template shear_modulus<double>,
                  &Law::complaint,
                  Versions<kernels::InternalForce<Dim, Law>, Dim, double*>::table(),
                  Versions<kernels::Energy<Dim, Law>, Dim, double*, double*>::table(),
+                 Versions<kernels::Stiffness<Dim, Law>, Dim, const StiffnessPattern<Dim>*, double*, double*>::table(),
                  &cauchy_stress<Law>,
                  &region_stress<Dim, Law>,
                  &region_energy<Dim, Law> };

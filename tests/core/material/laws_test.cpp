@@ -106,7 +106,42 @@ template <int Dim> Mat<Dim> tangent(const MooneyRivlin&, const std::vector<doubl
         - (2 * c * J * (J - 1) - 2 * (c1 + 2 * c2)) * G * dF.transpose() * G;
 }
 
-// The code has no tangent: the differences of its stress have to be that of the law, and symmetric, A : dP[B] = B : dP[A].
+// The second derivatives of U and, in the plane, of w that the implicit scheme takes, against differences of their slopes.
+TYPED_TEST(LawIn, PlaneTangentIsTheSlopeOfTheStress)
+{
+    using Law = typename TypeParam::Law;
+    constexpr int Dim = TypeParam::Dim;
+    const double* p = this->p.data();
+    for (double J = 0.4; J < 2; J += 0.1) {
+        const auto slope = [&](const std::vector<double>& at) { return Law::volumetric_slope(p, at[0], 1 / at[0]); };
+        EXPECT_NEAR(central_gradient(slope, { J }, 1e-3)[0], Law::volumetric_curvature(p, J, 1 / J), 1e-7);
+    }
+    if constexpr (Dim == 2) {
+        Random random(8);
+        for (int trial = 0; trial < 100; ++trial) {
+            const Mat<2> F = this->deformation(random), A = random.matrix<2>(1);
+            const auto stress = [&](double s, int i, int j) {
+                const auto T = this->tensor(F + s * A), cof = cofactor(T);
+                Tensor<2, double> P;
+                Law::template stress<2, double>(p, T, cof, 1 / determinant(T), P);
+                return P.at[i][j];
+            };
+            const double J = F.determinant();
+            const auto tangent = Law::plane_tangent(p, J, 1 / J);
+            const Mat<2> cof = J * F.inverse().transpose(),
+                         dcof = (Mat<2>() << A(1, 1), -A(1, 0), -A(0, 1), A(0, 0)).finished();
+            const Mat<2> expected
+                = tangent.identity * A + tangent.cofactor * cof.cwiseProduct(A).sum() * cof + tangent.bend * dcof;
+            for (int i = 0; i < 2; ++i)
+                for (int j = 0; j < 2; ++j)
+                    EXPECT_NEAR(
+                        central_gradient([&](const std::vector<double>& s) { return stress(s[0], i, j); }, { 0.0 }, 3e-4)[0],
+                        expected(i, j), 1e-9 * (1 + expected.norm()));
+        }
+    }
+}
+
+// Of the whole stress: the differences of its stress have to be that of the law, and symmetric, A : dP[B] = B : dP[A].
 TYPED_TEST(LawIn, DifferencesOfTheStressAreASymmetricTangent)
 {
     constexpr int Dim = TypeParam::Dim;

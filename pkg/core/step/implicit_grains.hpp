@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "step/assembly.hpp"
+#include "step/stiffness.hpp"
+
+#include <map>
+
+namespace softgrain {
+
+/// How an implicit step is to be taken.
+struct ImplicitSettings {
+    double theta = 1;             ///< weight of the end of the step, 1/2 to 1
+    bool quasistatic = false;     ///< no inertia
+    double tolerance = 1e-3;      ///< of the balance of forces, and of the contact residual
+    double regularisation = 0.02; ///< quasi-static: stiffness per area that holds grains at their centre [shear modulus]
+    int most_iterations = 60;     ///< of Newton's method in a step
+    int most_stages = 30;         ///< of a quasi-static step
+    int threads = 1;
+};
+
+/// Surface values of all bodies, [body][point][Dim].
+using SurfaceField = std::vector<std::vector<double>>;
+
+/// The grains' part of an implicit step. Theta scheme, u' the displacements sought, h the step (Jean 1999; Acary and
+/// Brogliato 2008):
+///     v' = v + h [theta f(u') + (1 - theta) f(u)] / m + h b + p / m,    u' = u + h [theta v' + (1 - theta) v]
+/// With the contact forces r = p / (theta h), u' makes stationary, r held,
+///     E(u') + |u' - target|^2_m / 2 (theta h)^2 - r . x(u'),   target = u + h v + theta h^2 [(1 - theta) f(u) / m + b].
+/// Quasi-static: the same with a small stiffness in place of 1 / (theta h)^2 about a centre, at first the prediction, then
+/// the place reached (a proximal point method: what holds the grains fades where there is an equilibrium).
+template <int Dim> class ImplicitGrains {
+public:
+    explicit ImplicitGrains(Assembly<Dim>& assembly);
+
+    using Prediction = std::function<Vec<Dim>(const Vec<Dim>&)>; ///< way of a place during the step [m]
+    /// Begins a step at the grains' state: targets, and what can be restored.
+    void begin(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity, const Prediction& prediction);
+    enum class Start { rest, velocity, prediction };
+    /// Lays the search direction from the state at the start to a guess.
+    void aim(Start start);
+    /// Puts the grains at `share` of the search direction from the base.
+    struct Place {
+        double potential; ///< [J]
+        bool sound;       ///< J > 0 everywhere, all numbers finite
+    };
+    Place evaluate(double share);
+    /// Makes the last place evaluated the base.
+    void settle();
+    /// Quasi-static: holds the grains at the last place evaluated from now on.
+    void recentre();
+    /// Quasi-static: back to where the grains are held, and holds them four times as stiffly.
+    void back_to_centre();
+    /// Fits the boxes of the surfaces to the last place evaluated; ways count from it.
+    void mark();
+    /// Largest way of a surface point since the last mark over its grain's radius, at the last place evaluated.
+    double farthest() const { return farthest_; }
+    /// Largest way of a surface point along the search direction [radius].
+    double reach_of_step() const { return reach_; }
+
+    struct Forces {
+        double unbalanced, contact, inertia; ///< norms of the nodal forces; inertia: or what holds the grains [N]
+        int worst;                           ///< grain with the largest force that lacks balance
+    };
+    /// Forces that lack balance at the last place evaluated, under contact forces at the surfaces [N].
+    Forces load(const SurfaceField& contact_forces);
+    /// Stiffness, its factor and the compliances of the surfaces. `damping` of each grain adds to the inertia in the search
+    /// direction alone, per node mass [Pa].
+    void condense(const std::vector<double>& damping);
+    const std::vector<const double*>& compliance() const { return compliance_view_; }
+    /// Search direction K^-1 of the load and, when given, further surface forces; the way of the surfaces along it [m].
+    void solve(SurfaceField& way, const SurfaceField* further = nullptr);
+    /// Way of the surfaces since the start of the step [m].
+    void slide(SurfaceField& way) const;
+
+    /// Takes the last place as the end of the step, under the contact forces of the last load; returns the energy that the
+    /// scheme dissipated [J]; quasi-static: all work of these forces and of loads that is not stored.
+    double accept();
+    /// Back to the start of the step.
+    void restore();
+
+private:
+    struct Part {
+        Batch<Dim>* batch;
+        const std::vector<Grain<Dim>*>* members;
+        std::vector<size_t> index; ///< of the members among all grains
+        const StiffnessPattern<Dim>* pattern;
+        AlignedVector displacement, velocity, force; ///< at the start of the step
+        AlignedVector base, step, stage;             ///< [master][Dim][lane]
+        AlignedVector centre, lift;                  ///< the target without body forces, and what they add to it
+        AlignedVector inertia;                       ///< [lane], 1 / (theta h)^2 in units of the stiffness [Pa]
+        AlignedVector rhs, loads;                    ///< [row][Dim][lane]; loads: contact forces, or the search direction
+        AlignedVector energy;                        ///< elastic, at the start of the step, [lane] [J/m^Dim]
+        AlignedVector matrix, compliance;
+        double potential = 0, farthest = 0;
+        bool sound = true;
+    };
+    template <class Work> void each_part(const Work& work);
+    void interpolate_step(Part& part, const AlignedVector& rows, SurfaceField& way) const;
+
+    Assembly<Dim>& assembly_;
+    std::vector<Part> parts_;
+    std::map<const Discretisation<Dim>*, std::unique_ptr<StiffnessPattern<Dim>>> patterns_;
+    std::vector<std::vector<double>> compliance_; ///< [grain]
+    std::vector<const double*> compliance_view_;
+    SurfaceField start_, mark_; ///< positions at the start of the step and at the last mark [m]
+    ImplicitSettings settings_;
+    Prediction prediction_;
+    double dt_ = 0, farthest_ = 0, reach_ = 0;
+};
+
+extern template class ImplicitGrains<2>;
+
+} // namespace softgrain

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/implicit_run.hpp"
+
+#include <cmath>
+
+namespace softgrain {
+namespace {
+
+    constexpr double smallest = 1e-6; // substep [step]
+    constexpr int swift = 25;         // iterations after which a substep went well
+    constexpr double growth = 1.5;
+
+} // namespace
+
+template <int Dim>
+void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity,
+                               ImplicitScene<Dim>& scene, const Accepted& accepted)
+{
+    report = {};
+    for (double rest = dt; rest > 0;) {
+        const double wished = substep > 0 ? std::min(substep, rest) : rest;
+        const double h = rest / std::ceil(rest / wished - 1e-9); // no crumb at the end
+        const auto outcome = step.attempt(h, settings, gravity, scene);
+        report.iterations += outcome.iterations;
+        if (!outcome.converged) {
+            ++report.cuts;
+            substep = h / 2;
+            if (substep < smallest * dt)
+                throw SimulationError("the implicit step cannot go on: " + outcome.trouble + " even in a step of " + shown(h)
+                                      + " s.");
+            continue;
+        }
+        ++report.substeps;
+        report.residual = std::max(report.residual, outcome.residual);
+        report.distance = std::max(report.distance, outcome.distance);
+        report.penetration = std::max(report.penetration, outcome.penetration);
+        report.held = outcome.held;
+        report.dissipated += outcome.dissipated;
+        accepted(h, outcome);
+        rest = h >= rest ? 0 : rest - h;
+        substep = outcome.iterations <= swift * outcome.stages ? growth * h : h;
+    }
+}
+
+template class ImplicitRun<2>;
+
+} // namespace softgrain

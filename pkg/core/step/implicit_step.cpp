@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/implicit_step.hpp"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace softgrain {
+namespace {
+
+    /// Force against a slide d of a contact that bears b at most, and its slope; see ImplicitStep.
+    struct Friction {
+        double force, slope, energy;
+        Friction(double d, double b, double kappa)
+        {
+            const double root = std::sqrt(kappa * kappa + b * b * d * d), sum = kappa + root;
+            force = sum > 0 ? b * b * d / sum : 0;
+            slope = root > 0 ? b * b / sum : 0; // secant
+            energy = root - kappa - (kappa > 0 ? kappa * std::log(sum / (2 * kappa)) : 0);
+        }
+        /// Slope for a force t of its own (Chan, Golub and Mulet 1999).
+        static double slope_for(double t, double d, double b, double kappa)
+        {
+            const double root = std::sqrt(kappa * kappa + b * b * d * d);
+            return b * b * (1 - std::abs(t * d) / std::max(root, 1e-300)) / (kappa + root);
+        }
+    };
+
+    constexpr double fraction_to_boundary = 0.995;
+    constexpr double most_penetration = 1e-5; ///< [radius of the smaller body]
+    constexpr int most_firmer = 8;
+
+} // namespace
+
+template <int Dim>
+ImplicitStep<Dim>::ImplicitStep(Assembly<Dim>& assembly)
+    : assembly_(assembly)
+    , grains_(assembly)
+{
+    for (const Grain<Dim>* grain : assembly.grains())
+        least_force_ = std::max(least_force_, 1e-4 * grain->law->shear_modulus(grain->parameters.data()) * grain->radius);
+}
+
+/// Feet, normals, gaps and slides at the grains' places.
+template <int Dim> void ImplicitStep<Dim>::locate()
+{
+    grains_.slide(way_);
+    for (auto& contact : contacts) {
+        const Surface<Dim>& body = *scene_->bodies[contact.body];
+        if (contact.other < 0) {
+            contact.gap = contact.normal.dot(body.x(contact.point)) - contact.plane;
+        } else {
+            const Surface<Dim>& other = *scene_->bodies[contact.other];
+            const Projection at = project(other, body.x(contact.point), contact.face, contact.place);
+            contact.face = at.segment;
+            contact.place = at.t;
+            contact.vertex = at.vertex;
+            contact.weight = at.weight;
+            contact.normal = at.normal;
+            contact.gap = at.gap + contact.let;
+        }
+        if (contact.friction > 0) contact.slide = (difference(contact, way_) - contact.drive).dot(contact.tangent());
+    }
+}
+
+template <int Dim> void ImplicitStep<Dim>::look_or_locate(double dt)
+{
+    if (grains_.farthest() > ahead / 4)
+        renew_contacts(dt);
+    else
+        locate();
+}
+
+template <int Dim> void ImplicitStep<Dim>::start_values()
+{
+    // how much the guess misses, and the force that goes with it
+    double missed = 0, size = 0, force = 0;
+    int loaded = 0;
+    for (const auto& contact : contacts) {
+        missed = std::max(missed, -contact.gap);
+        size = std::max(size, contact.size);
+        if (contact.force > 0) {
+            force += contact.force;
+            ++loaded;
+        }
+    }
+    missed = std::clamp(0.3 * missed, 1e-4 * size, ahead * size);
+    double rigid = 1e300; // stiffness of the most mobile contact
+    for (const auto& contact : contacts)
+        rigid = std::min(rigid, 1 / contact.compliance);
+    kappa_ = missed * std::max(loaded ? force / loaded : 0, rigid * missed);
+    for (auto& contact : contacts) {
+        const double before = contact.force > 0 ? std::min(kappa_ / contact.force, 10 * missed) : missed;
+        contact.slack = std::max(contact.gap, before);
+        contact.force = kappa_ / contact.slack;
+        const double most = 0.9 * contact.friction * contact.force;
+        contact.shear = std::clamp(contact.shear, -most, most);
+    }
+}
+
+/// Looks for contacts anew where the grains are now; those that go on keep forces and slacks.
+template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
+{
+    const auto key = [](const BarrierContact<Dim>& c) {
+        return std::make_tuple(c.body, c.other, c.point, c.other < 0 ? c.normal[0] + 2 * c.normal[1] : 0.0);
+    };
+    std::map<decltype(key(contacts[0])), const BarrierContact<Dim>*> known;
+    const std::vector<BarrierContact<Dim>> before = std::move(contacts);
+    for (const auto& contact : before)
+        known[key(contact)] = &contact;
+    grains_.mark();
+    contacts = scene_->contacts(ahead, dt);
+    locate();
+    for (auto& contact : contacts) {
+        const auto found = known.find(key(contact));
+        contact.slack = found != known.end() ? found->second->slack : std::max(contact.gap, 1e-2 * contact.size);
+        contact.force = found != known.end() ? found->second->force : kappa_ / contact.slack;
+        contact.shear = found != known.end() ? found->second->shear : 0;
+        contact.compliance = found != known.end() ? found->second->compliance : 0;
+    }
+    system_.analyse(contacts, int(scene_->bodies.size()));
+}
+
+/// Potential with barriers, friction at the present bounds, and the price of gaps that are not their slacks.
+template <int Dim> double ImplicitStep<Dim>::merit(double potential) const
+{
+    double sum = potential;
+    for (const auto& contact : contacts) {
+        sum -= kappa_ * std::log(contact.slack);
+        sum += 2 * std::max(contact.force, contact.force + contact.force_step) * std::abs(contact.gap - contact.slack);
+        if (contact.friction > 0) sum += Friction(contact.slide, contact.friction * contact.force, kappa_).energy;
+    }
+    return sum;
+}
+
+/// Mean of the contacts' stiffnesses along their normals, those that are known [N/m].
+template <int Dim> double ImplicitStep<Dim>::mean_stiffness() const
+{
+    double sum = 0;
+    int known = 0;
+    for (const auto& contact : contacts)
+        if (contact.compliance > 0) {
+            sum += 1 / contact.compliance;
+            ++known;
+        }
+    return known ? sum / known : 0;
+}
+
+/// || r - P_K(r - u - mu |u_t| n) || / max(|r|, |u|) with u = (gap, slide) in units of force through the mean stiffness.
+template <int Dim> double ImplicitStep<Dim>::contact_residual() const
+{
+    const double stiffness = mean_stiffness();
+    double error = 0, r2 = 0;
+    for (const auto& contact : contacts) {
+        const double mu = contact.friction, un = stiffness * contact.gap, ut = mu > 0 ? stiffness * contact.slide : 0;
+        const double n = contact.force - un - mu * std::abs(ut), t = contact.shear - ut, size = std::abs(t);
+        double pn = n, pt = t;
+        if (mu * size <= -n || (mu == 0 && n < 0))
+            pn = pt = 0;
+        else if (size > mu * n) {
+            pn = (n + mu * size) / (1 + mu * mu);
+            pt = size > 0 ? mu * pn * t / size : 0;
+        }
+        error += std::pow(contact.force - pn, 2) + std::pow(contact.shear - pt, 2);
+        r2 += contact.force * contact.force + contact.shear * contact.shear;
+    }
+    // not |u| too, as Siconos has it: far points would hide what is wrong with those that touch
+    return std::sqrt(error) / std::max(std::sqrt(r2), least_force_);
+}
+
+template <int Dim>
+SurfaceField& ImplicitStep<Dim>::gather(SurfaceField& field, double BarrierContact<Dim>::*normal,
+                                        double BarrierContact<Dim>::*shear) const
+{
+    for (auto& values : field)
+        std::fill(values.begin(), values.end(), 0.0);
+    for (const auto& contact : contacts) {
+        const Vec<Dim> force = contact.*normal * contact.normal + contact.*shear * contact.tangent();
+        Eigen::Map<Vec<Dim>>(&field[size_t(contact.body)][size_t(Dim) * contact.point]) += force;
+        for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
+            Eigen::Map<Vec<Dim>>(&field[size_t(contact.other)][size_t(Dim) * contact.vertex[k]])
+                -= contact.weight[k] * force;
+    }
+    return field;
+}
+
+/// Changes of forces and slacks towards r s = kappa, less a correction of second order.
+template <int Dim> void ImplicitStep<Dim>::solve_contacts(double kappa, const Eigen::VectorXd& correction)
+{
+    Eigen::VectorXd b(system_.rows());
+    for (size_t c = 0; c < contacts.size(); ++c) {
+        const auto& contact = contacts[c];
+        const int row = system_.row(int(c));
+        b[row] = (kappa - correction[Eigen::Index(c)]) / contact.force - contact.slack - (contact.gap - contact.slack)
+            - free_[row];
+        if (contact.friction > 0) {
+            const double bound = contact.friction * contact.force;
+            const double slope = Friction::slope_for(contact.shear, contact.slide, bound, kappa_);
+            b[row + 1] = (-Friction(contact.slide, bound, kappa_).force - contact.shear) / slope - free_[row + 1];
+        }
+    }
+    const Eigen::VectorXd change = system_.solve(b);
+    for (size_t c = 0; c < contacts.size(); ++c) {
+        auto& contact = contacts[c];
+        const int row = system_.row(int(c));
+        contact.force_step = change[row];
+        contact.shear_step = contact.friction > 0 ? change[row + 1] : 0;
+        contact.slack_step
+            = (kappa - correction[Eigen::Index(c)] - contact.slack * change[row]) / contact.force - contact.slack;
+    }
+}
+
+template <int Dim>
+double ImplicitStep<Dim>::largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const
+{
+    double share = 1;
+    for (const auto& contact : contacts)
+        if (contact.*step < 0) share = std::min(share, -fraction_to_boundary * contact.*value / contact.*step);
+    return share;
+}
+
+/// Room for the values of the surfaces, and the grains at the best of three guesses: as they are, going on at their
+/// velocities, or moving with the walls.
+template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& gravity)
+{
+    contacts = scene_->contacts(ahead, dt);
+    points_.clear();
+    for (SurfaceField* field : { &way_, &forces_, &moved_ })
+        field->resize(scene_->bodies.size());
+    for (size_t b = 0; b < scene_->bodies.size(); ++b) {
+        points_.push_back(scene_->bodies[b]->count);
+        for (SurfaceField* field : { &way_, &forces_, &moved_ })
+            (*field)[b].assign(size_t(Dim) * scene_->bodies[b]->count, 0);
+    }
+    grains_.begin(dt, settings_, gravity, [&](const Vec<Dim>& x) { return scene_->prediction(x, dt); });
+    system_.analyse(contacts, int(scene_->bodies.size()));
+
+    using Start = typename ImplicitGrains<Dim>::Start;
+    constexpr double too_far = 0.5; // radii
+    double least = 1e300;
+    Start best = Start::rest;
+    for (Start start : { Start::rest, Start::velocity, Start::prediction }) {
+        grains_.aim(start);
+        place_ = grains_.evaluate(1);
+        if (!place_.sound || grains_.farthest() > too_far) continue;
+        look_or_locate(dt);
+        double value = place_.potential;
+        for (const auto& contact : contacts)
+            value += 2 * contact.force * std::max(0.0, -contact.gap);
+        if (value < least) {
+            least = value;
+            best = start;
+        }
+    }
+    grains_.aim(best);
+    place_ = grains_.evaluate(1);
+    grains_.settle();
+    look_or_locate(dt);
+}
+
+/// Stiffnesses, and the contact system without its diagonal. Pressure stiffens the search direction of a grain where full
+/// steps have failed: its turning and its contacts' curvature are not in the tangent.
+template <int Dim> void ImplicitStep<Dim>::condense()
+{
+    std::vector<double> damping(assembly_.grains().size(), 0);
+    for (const auto& contact : contacts) {
+        damping[size_t(contact.body)] += contact.force;
+        if (contact.other >= 0 && size_t(contact.other) < damping.size()) damping[size_t(contact.other)] += contact.force;
+    }
+    for (size_t g = 0; g < damping.size(); ++g)
+        damping[g] *= damping_ / (2 * M_PI * assembly_.grains()[g]->radius);
+    grains_.condense(damping);
+    auto compliance = grains_.compliance();
+    compliance.resize(scene_->bodies.size(), nullptr);
+    system_.assemble(contacts, compliance, points_);
+}
+
+/// What the present place and forces are worth.
+template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitStep<Dim>::judge(Outcome& outcome)
+{
+    const auto balance = grains_.load(gather(forces_, &BarrierContact<Dim>::force, &BarrierContact<Dim>::shear));
+    const double scale = std::max({ balance.contact, settings_.quasistatic ? 0 : balance.inertia, least_force_ });
+    outcome.unbalanced = balance.unbalanced / scale;
+    outcome.held = settings_.quasistatic ? balance.inertia / scale : 0;
+    outcome.residual = contact_residual();
+    outcome.penetration = outcome.distance = 0;
+    double sum = 0;
+    for (const auto& contact : contacts) {
+        outcome.penetration = std::max(outcome.penetration, -contact.gap / contact.size);
+        outcome.distance += contact.force * std::max(contact.gap, 0.0) / contact.size;
+        sum += contact.force;
+    }
+    if (sum > 0) outcome.distance /= sum;
+    return balance;
+}
+
+/// Search direction: changes of forces and slacks, and the grains' way. False when the contact system is singular.
+template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome)
+{
+    using Contact = BarrierContact<Dim>;
+    grains_.solve(moved_);
+    if (!contacts.empty()) {
+        Eigen::VectorXd diagonal(system_.rows());
+        free_.resize(system_.rows());
+        for (size_t c = 0; c < contacts.size(); ++c) {
+            const auto& contact = contacts[c];
+            const int row = system_.row(int(c));
+            const Vec<Dim> way = difference(contact, moved_);
+            diagonal[row] = contact.slack / contact.force;
+            free_[row] = contact.normal.dot(way);
+            if (contact.friction == 0) continue;
+            diagonal[row + 1]
+                = 1 / Friction::slope_for(contact.shear, contact.slide, contact.friction * contact.force, kappa_);
+            free_[row + 1] = contact.tangent().dot(way);
+        }
+        if (!system_.factorise(diagonal)) return false;
+        // Mehrotra 1992: how far kappa could fall at once says how far it is taken down
+        Eigen::VectorXd correction = Eigen::VectorXd::Zero(Eigen::Index(contacts.size()));
+        solve_contacts(0, correction);
+        const double primal = largest_share(&Contact::slack, &Contact::slack_step),
+                     dual = largest_share(&Contact::force, &Contact::force_step);
+        double now = 0, then = 0, floor = 0;
+        for (size_t c = 0; c < contacts.size(); ++c) {
+            const auto& contact = contacts[c];
+            now += contact.slack * contact.force / double(contacts.size());
+            then += (contact.slack + primal * contact.slack_step) * (contact.force + dual * contact.force_step)
+                / double(contacts.size());
+            floor += contact.force * contact.size / double(contacts.size());
+            correction[Eigen::Index(c)] = primal * dual * contact.slack_step * contact.force_step;
+        }
+        floor *= settings_.tolerance * (outcome.residual > 0.5 * settings_.tolerance ? 1e-6 : 1e-3);
+        kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), 1e-2, 1.0));
+        solve_contacts(kappa_, correction);
+    }
+    grains_.solve(moved_, &gather(forces_, &Contact::force_step, &Contact::shear_step));
+    return true;
+}
+
+/// Goes along the search direction as far as slacks stay positive, no point inverts and the merit does not grow. False when
+/// there is no such place.
+template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
+{
+    using Contact = BarrierContact<Dim>;
+    constexpr int most_cuts = 6; // of a merit that may err: the direction is one of descent but for friction's bounds
+    const double dual = largest_share(&Contact::force, &Contact::force_step);
+    double share = std::min(largest_share(&Contact::slack, &Contact::slack_step),
+                            ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
+    const double before = merit(place_.potential), noise = 1e-9 * (std::abs(before) + 1e-3 * least_force_);
+    const std::vector<Contact> start = contacts;
+    int cuts = 0;
+    for (;; ++cuts, share /= 2) {
+        place_ = grains_.evaluate(share);
+        if (place_.sound) {
+            for (auto& contact : contacts)
+                contact.slack += share * contact.slack_step;
+            locate();
+            if (merit(place_.potential) < before + noise || cuts > most_cuts) break;
+        }
+        contacts = start;
+        if (cuts > 5 * most_cuts) return false;
+    }
+    grains_.settle();
+    for (auto& contact : contacts) {
+        contact.force += dual * contact.force_step;
+        const double most = 0.999 * contact.friction * contact.force;
+        contact.shear = std::clamp(contact.shear + dual * contact.shear_step, -most, most);
+    }
+    damping_ = cuts > 0 ? std::clamp(4 * damping_, 0.05, 4.0) : 0.8 * damping_;
+    if (grains_.farthest() > ahead / 4) renew_contacts(dt);
+    return true;
+}
+
+template <int Dim>
+typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const ImplicitSettings& settings,
+                                                               const Vec<Dim>& gravity, ImplicitScene<Dim>& scene)
+{
+    scene_ = &scene;
+    settings_ = settings;
+    damping_ = 0.1;
+    begin(dt, gravity);
+    condense();
+    start_values();
+    Outcome outcome;
+    int last = settings.most_iterations, firmer = 0; // iteration to end at; how often grains had to be held more firmly
+    std::vector<BarrierContact<Dim>> held = contacts;
+    for (;; ++outcome.iterations) {
+        const auto balance = judge(outcome);
+        const bool touching = outcome.residual < settings.tolerance && outcome.penetration < most_penetration;
+        const bool free = outcome.held * std::max(balance.contact, least_force_)
+            < std::max(settings.tolerance * balance.contact, 0.1 * least_force_);
+        if (touching && outcome.unbalanced < settings.tolerance
+            && (!settings.quasistatic || free || outcome.stages >= settings.most_stages)) {
+            outcome.converged = true;
+            outcome.dissipated = grains_.accept();
+            fill_problem(dt);
+            return outcome;
+        }
+        if (settings.quasistatic && touching && !free && outcome.stages < settings.most_stages
+            && outcome.unbalanced < std::max(settings.tolerance, 0.1 * outcome.held)) {
+            grains_.recentre();
+            place_ = grains_.evaluate(0);
+            held = contacts;
+            ++outcome.stages;
+            last = outcome.iterations + settings.most_iterations;
+            judge(outcome);
+        }
+        bool sound = outcome.iterations < last;
+        if (sound) {
+            if (outcome.iterations > 0) condense();
+            sound = find_direction(outcome) && take_direction(dt);
+        }
+        if (sound) continue;
+        outcome.trouble = "forces on soft grain #" + std::to_string(assembly_.grains()[size_t(balance.worst)]->id)
+            + " find no balance (" + shown(outcome.unbalanced, 2) + " of the contact forces; contact residual "
+            + shown(outcome.residual, 2) + ", penetration " + shown(outcome.penetration, 2) + " radii)";
+        if (!settings.quasistatic || ++firmer > most_firmer) break;
+        grains_.back_to_centre();
+        place_ = grains_.evaluate(0);
+        contacts = held;
+        renew_contacts(dt);
+        last = outcome.iterations + settings.most_iterations;
+    }
+    grains_.restore();
+    return outcome;
+}
+
+template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
+{
+    grains_.slide(way_);
+    problem.bodies = scene_->bodies;
+    problem.contacts.clear();
+    for (size_t g = 0; g < assembly_.grains().size(); ++g) {
+        Surface<Dim>& surface = *scene_->bodies[g];
+        for (size_t i = 0; i < surface.velocity.size(); ++i)
+            surface.velocity[i] = surface.velocity_before[i] = way_[g][i] / dt;
+    }
+    const double stiffness = mean_stiffness();
+    const double length = (settings_.quasistatic ? 1 : settings_.theta) * dt;
+    for (const auto& from : contacts) {
+        Contact<Dim> contact;
+        contact.body = from.body;
+        contact.other = from.other;
+        contact.point = from.point;
+        contact.face = from.face;
+        contact.vertex = from.vertex;
+        contact.weight = from.weight;
+        contact.normal = from.normal;
+        contact.drive = from.drive / dt;
+        contact.friction = from.friction;
+        contact.law = nullptr;
+        // points that stand off bear no force but what the barrier leaves
+        contact.impulse = from.force > stiffness * from.gap ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
+        contact.inertia = length * dt / from.compliance;
+        const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
+        contact.gap_speed = from.gap / dt - rate;
+        problem.contacts.push_back(contact);
+    }
+}
+
+template class ImplicitStep<2>;
+
+} // namespace softgrain

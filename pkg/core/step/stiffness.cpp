@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/stiffness.hpp"
+
+#include "step/stiffness_kernel.hpp"
+#include "step/versions.hpp"
+
+namespace softgrain {
+
+const StiffnessKernels& stiffness_kernels()
+{
+    using Pattern = StiffnessKernels::Pattern;
+    static const StiffnessKernels all { Versions<kernels::Factorise, 2, Pattern, double*>::table(),
+                                        Versions<kernels::Solve, 2, Pattern, double*, double*>::table(),
+                                        Versions<kernels::Compliance, 2, Pattern, double*, double*, double*>::table() };
+    return all;
+}
+
+} // namespace softgrain

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "SoftImplicitIntegrator.hpp"
+
+#include "Problems.hpp"
+#include "SceneCheck.hpp"
+#include "Stopwatch.hpp"
+
+#include <core/InteractionLoop.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((SoftImplicitIntegrator));
+
+void SoftImplicitIntegrator::assembled()
+{
+    for (const SoftState* state : soft_.states)
+        if (state->grain.updated)
+            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id)
+                                     + ": SoftImplicitIntegrator knows the total-Lagrangian form alone; give it "
+                                       "formulation='total', or take SoftIntegrator.");
+    run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_);
+}
+
+void SoftImplicitIntegrator::advance(double dt)
+{
+    Stopwatch watch(stageSeconds);
+    loads_.gather(*scene, gravity, threads());
+    refuseBlocked();
+    pairs_.collect(*scene, touchingPairs());
+    if (fresh_) pairs_.refuseOverlaps();
+    refuseStrangersNowAndThen();
+    watch.stage(0);
+
+    softgrain::ImplicitSettings settings;
+    settings.theta = theta;
+    settings.quasistatic = quasistatic;
+    settings.tolerance = tolerance;
+    settings.regularisation = regularisation;
+    settings.most_iterations = maxIterations;
+    settings.threads = threads();
+    seen_.begin(*scene, dt, wallsAhead(), [this] { search(); });
+    run_->substep = substep;
+    run_->advance(dt, settings, gravity.head<2>(), seen_, [&](double h, const softgrain::ImplicitStep<2>::Outcome&) {
+        const double weight = (quasistatic ? 1 : theta) * h;
+        take(h, weight / dt);
+    });
+    watch.stage(2);
+
+    pairs_.deliver(*scene);
+    pairs_.deepest = run_->report.penetration;
+    fresh_ = false;
+    substep = run_->substep;
+    iterations = run_->report.iterations;
+    totalIterations += iterations;
+    substeps = run_->report.substeps;
+    totalSubsteps += substeps;
+    cuts = run_->report.cuts;
+    totalCuts += cuts;
+    contactDistance = run_->report.distance;
+    imbalance = run_->report.held;
+    contactCount = int(pairs_.problem.contacts.size());
+    contactIterations += Real(iterations) * contactCount;
+    numericalDissipation += run_->report.dissipated;
+    externalWork += loads_.takeWork();
+    if (scene->iter % checkInterval == 0) {
+        requireSoftEngines(*scene);
+        pairs_.refuseLeaks(0.5);
+    }
+    if (scene->trackEnergy) trackEnergies();
+    watch.stage(3);
+}
+
+/// What comes of a substep.
+void SoftImplicitIntegrator::take(double dt, Real share)
+{
+    seen_.pass(dt);
+    pairs_.problem = run_->step.problem;
+    softgrain::EnergyBalance balance;
+    softgrain::Assembly<2>::account(pairs_.problem, balance);
+    frictionDissipation += balance.friction;
+    contactDissipation += balance.contact_dissipation;
+    externalWork += balance.external_work;
+    pairs_.add(quasistatic ? dt : theta * dt, share);
+    std::vector<softgrain::Vec<2>> before;
+    for (const SoftState* state : soft_.states)
+        before.push_back(state->grain.motion.position);
+    assembly_->renew(dt, threads(), [&](softgrain::Grain<2>& grain) {
+        const int place = soft_.of(grain.id);
+        SoftState& state = *soft_.states[size_t(place)];
+        const softgrain::Vec<2> way = grain.motion.position - before[size_t(place)];
+        state.publish();
+        state.justPlaced = false;
+        loads_.work(place, Vector3r(way[0], way[1], dt * state.angVel[2]));
+    });
+}
+
+/// Runs collider and interaction loop within the step: grains have left the room that the collider looked at.
+void SoftImplicitIntegrator::search()
+{
+    for (const auto& engine : scene->engines) {
+        if (engine->dead) continue;
+        const bool collider = engine->getClassName() == "InsertionSortCollider";
+        if (collider) scene->doSort = true;
+        if (!collider && !dynamic_cast<const InteractionLoop*>(engine.get())) continue;
+        engine->scene = scene;
+        engine->action();
+    }
+    Problems::raise();
+    pairs_.collect(*scene, touchingPairs(), true);
+}
+
+/// NewtonIntegrator has moved the driven bodies already.
+bool SoftImplicitIntegrator::wallsAhead() const
+{
+    for (const auto& engine : scene->engines) {
+        if (engine.get() == this) return false;
+        if (!engine->dead && engine->getClassName() == "NewtonIntegrator") return true;
+    }
+    return false;
+}
+
+void SoftImplicitIntegrator::refuseBlocked() const
+{
+    for (const SoftState* state : soft_.states) {
+        const auto held = state->held();
+        if (held[0] || held[1] || held[2])
+            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id)
+                                     + ": its blockedDOFs are not known to SoftImplicitIntegrator; free it, or take "
+                                       "SoftIntegrator.");
+    }
+}
+
+void SoftImplicitIntegrator::requireSaneAttributes() const
+{
+    SoftIntegrator::requireSaneAttributes();
+    const auto demand = [](bool sane, const char* name, Real value, const char* range) {
+        if (!sane)
+            throw std::runtime_error("SoftImplicitIntegrator: " + std::string(name) + " = " + softgrain::shown(value)
+                                     + " has to " + range + ".");
+    };
+    demand(theta >= 0.5 && theta <= 1, "theta", theta, "lie between 0.5 and 1");
+    demand(regularisation > 0 && std::isfinite(regularisation), "regularisation", regularisation, "be positive and finite");
+    demand(maxIterations > 0, "maxIterations", maxIterations, "be 1 or more");
+    demand(scene->dt > 0 && std::isfinite(scene->dt), "O.dt", scene->dt, "be positive and finite");
+}
+
+void SoftImplicitIntegrator::trackEnergies()
+{
+    SoftIntegrator::trackEnergies();
+    scene->energy->set(numericalDissipation, "softNumerical", numericalId_);
+}
+
+Real SoftImplicitIntegrator::elasticEnergy()
+{
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    evaluate();
+    if (!assembly_) return 0;
+    assembly_->evaluate_energy(0, threads());
+    Real sum = 0;
+    for (const SoftState* state : soft_.states)
+        sum += state->grain.elastic;
+    return sum;
+}
+
+boost::python::tuple SoftImplicitIntegrator::contactProblem() const
+{
+    throw std::runtime_error(
+        "SoftImplicitIntegrator solves contacts and deformation together, so there is no linear contact "
+        "problem to show; take SoftIntegrator.");
+}
+
+} // namespace yade

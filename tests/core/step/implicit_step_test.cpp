@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The implicit step: order in time, energy, contact that never penetrates, equilibria that depend on nothing but the loads.
+#include "support/implicit_world.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace softgrain;
+using namespace softgrain::testing_support;
+
+namespace {
+
+/// A disc stretched by a per cent and let go; displacements after 20 microseconds, a sixth of its slowest period.
+std::vector<double> let_go(double theta, int steps)
+{
+    ImplicitWorld world;
+    world.settings.theta = theta;
+    world.settings.tolerance = 1e-7;
+    Grain<2> grain = make_grain(disc_mesh(60), soft_neo_hookean());
+    for (int i = 0; i < grain.mesh->master_count; ++i)
+        for (int d = 0; d < 2; ++d)
+            grain.displacement[size_t(2 * i + d)] += (d == 0 ? 0.01 : -0.01) * grain.mesh->node_position[size_t(i)][d];
+    grain.refresh();
+    world.add(grain);
+    for (int k = 0; k < steps; ++k)
+        world.step(2e-5 / steps);
+    world.grains[0].pull();
+    return world.grains[0].displacement;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum);
+}
+
+TEST(ThetaScheme, HasOrderOneAtOneAndOrderTwoAtOneHalf)
+{
+    const std::vector<double> exact = let_go(0.5, 640);
+    for (double theta : { 1.0, 0.5 }) {
+        const double coarse = distance(let_go(theta, 40), exact), fine = distance(let_go(theta, 80), exact);
+        const double order = std::log2(coarse / fine);
+        std::printf("theta %.1f: errors %.2e and %.2e, order %.2f\n", theta, coarse, fine, order);
+        EXPECT_NEAR(order, theta == 0.5 ? 2 : 1, 0.1);
+    }
+}
+
+/// Four columns of three discs in a box whose top comes down at 1 m/s.
+struct Press {
+    ImplicitWorld world;
+    double area = 0, width = 1e-2;
+
+    explicit Press(double friction = 0, const Material& material = neo_hookean())
+    {
+        Random random(7);
+        const auto mesh = disc_mesh(124);
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 3; ++j) {
+                GrainStart start;
+                start.centre = 2.5e-3 * Vec<2>(i + 0.5, j + 0.5) + random.vector<2>(1e-4);
+                start.angle = random.uniform(0, 7);
+                const double radius = random.uniform(0.7e-3, 1.15e-3);
+                area += M_PI * radius * radius;
+                world.add(make_grain(mesh, material, start, radius));
+            }
+        world.planes = { { 0, 1, 0, 0 }, { 0, -1, width, 0 }, { 1, 1, 0, 0 }, { 1, -1, 7.5e-3, -1 } };
+        world.friction = friction;
+    }
+    double fraction() const { return area / (width * world.planes[3].position); }
+    void go(double until, double dt)
+    {
+        while (fraction() < until)
+            world.step(dt);
+    }
+    double residual()
+    {
+        const double total = world.total_energy() + world.balance.contact_dissipation + world.balance.friction;
+        return (total + world.dissipated) / world.balance.external_work - 1;
+    }
+    double stress() const { return world.plane_force[3].y() / width; }
+};
+
+// 0.2 microseconds is about the limit of explicit steps here.
+TEST(ImplicitStep, IsCleanAtAnyLength)
+{
+    for (double dt : { 2e-6, 2e-5, 2e-4 }) {
+        Press press;
+        press.go(0.93, dt);
+        std::printf("steps of %.0e s to 0.93: %d iterations, %d substeps, %d cuts, penetration %.1e, residual %.1e, stress "
+                    "%.0f kPa, "
+                    "energy %+.1e\n",
+                    dt, press.world.iterations, press.world.substeps, press.world.cuts, press.world.worst_penetration,
+                    press.world.worst_residual, press.stress() / 1e3, press.residual());
+        EXPECT_LE(press.world.worst_penetration, 1e-4);
+        EXPECT_LE(press.world.worst_residual, press.world.settings.tolerance);
+        EXPECT_GT(press.world.min_J(), 0.5);
+        EXPECT_LE(press.world.last.distance, 1e-5);
+    }
+}
+
+TEST(ImplicitStep, AccountsForTheEnergyThatTheSchemeDissipates)
+{
+    Press press;
+    press.go(0.95, 1e-5);
+    std::printf("theta 1: %.3f of the work dissipated by the scheme, residual %+.1e\n",
+                press.world.dissipated / press.world.balance.external_work, press.residual());
+    EXPECT_GT(press.world.dissipated, 0);
+    EXPECT_NEAR(press.residual(), 0, 5e-3);
+}
+
+// Coulomb: with friction every contact force lies in its cone, and the residual, which knows of sliding, is below the
+// tolerance in every step.
+TEST(ImplicitStep, CarriesFrictionToConvergence)
+{
+    for (bool quasistatic : { false, true }) {
+        Press press(0.3);
+        press.world.settings.quasistatic = quasistatic;
+        press.go(0.93, 2e-5);
+        std::printf("friction 0.3%s: %d iterations, residual %.1e, sliding takes %.3f of the work\n",
+                    quasistatic ? ", quasi-static" : "", press.world.iterations, press.world.worst_residual,
+                    press.world.balance.friction / press.world.balance.external_work);
+        EXPECT_LE(press.world.worst_residual, press.world.settings.tolerance);
+        EXPECT_GT(press.world.balance.friction, 0);
+        EXPECT_LE(press.world.worst_penetration, 1e-4);
+    }
+}
+
+/// A disc between plates, quasi-static, to 20 % squeeze; force [N/m].
+double plate_force(double density, double regularisation, double gap_of_steps)
+{
+    ImplicitWorld world;
+    world.settings.quasistatic = true;
+    world.settings.regularisation = regularisation;
+    world.settings.tolerance = 1e-5;
+    world.add(make_grain(disc_mesh(124), neo_hookean(), {}, 1e-3, density));
+    world.planes = { { 1, 1, -1e-3, 0.1 }, { 1, -1, 1e-3, -0.1 } };
+    for (double done = 0; done < 0.2 - 1e-9; done += gap_of_steps)
+        world.step(gap_of_steps * 1e-3 / 0.1);
+    return (world.plane_force[1].y() - world.plane_force[0].y()) / 2;
+}
+
+TEST(QuasiStatic, DependsOnNeitherDensityNorRegularisationNorSteps)
+{
+    const double force = plate_force(1000, 0.02, 0.005);
+    EXPECT_NEAR(plate_force(50, 0.02, 0.005) / force, 1, 1e-9);
+    const double halved = plate_force(1000, 0.01, 0.005) / force - 1, long_steps = plate_force(1000, 0.02, 0.02) / force - 1;
+    std::printf("force %.2f N/m; regularisation halved %+.1e, four times longer steps %+.1e\n", force, halved, long_steps);
+    EXPECT_NEAR(halved, 0, 1e-4);
+    EXPECT_NEAR(long_steps, 0, 1e-3);
+}
+
+} // namespace

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Implicit and quasi-static runs of the examples inside the real yade: their checks, against explicit ones, resumed, with
+friction, and what the engine refuses."""
+import json
+import os
+import sys
+
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
+from softgrain import *  # noqa: E402
+from softgrain.records import read_table  # noqa: E402
+from yade import O  # noqa: E402
+
+SMALL = ["--grains", "20", "--points", "60", "--until", "0.9", "--seed", "3"]
+
+
+def force_at(table, squeeze):
+    return numpy.interp(squeeze, table["squeeze"], table["force_per_thickness_N_m"])
+
+
+def squeeze(checks):
+    """At 0.01 m/s inertia is 1e-3 of the force and less."""
+    with Folder() as folder:
+        runs = {"explicit": ["--speed", "0.01"], "quasistatic": ["--quasistatic"],
+                "theta": ["--integrator", "implicit", "--speed", "0.01"]}
+        tables = {}
+        for name, words in runs.items():
+            run = run_example(folder, "squeeze.py", "--out", name, *words)
+            checks.that(f"squeeze, {name}", run.returncode == 0, said(run))
+            tables[name] = read_table(os.path.join(folder, name, "squeeze.csv"))
+        for name in ("quasistatic", "theta"):
+            # rows are means over half a per cent, of two steps where points come to touch at once
+            error = max(abs(force_at(tables[name], s) / force_at(tables["explicit"], s) - 1)
+                        for s in numpy.arange(0.05, 0.4, 0.01))
+            checks.that(f"{name}: force within 2 % of the explicit one from 5 to 40 %", error < 0.02, error)
+
+
+def compaction(checks):
+    with Folder() as folder:
+        for name, words in {"implicit": ["--integrator", "implicit"], "quasistatic": ["--quasistatic"],
+                            "friction": ["--quasistatic", "--friction", "0.3", "--wall-friction", "0.2"],
+                            "mr": ["--integrator", "implicit", "--material", "mr", "--theta", "0.8"],
+                            "long": ["--integrator", "implicit", "--dt", "1e-3"]}.items():
+            run = run_example(folder, "compaction.py", "--out", name, *SMALL, *words)
+            checks.that(f"compaction, {name}", run.returncode == 0, said(run))
+            table = read_table(os.path.join(folder, name, "compaction.csv"))
+            checks.that(f"{name}: contact residual", table["solver_residual"].max() <= 1e-3,
+                        table["solver_residual"].max())
+            checks.that(f"{name}: penetration below 0.01 %", table["max_penetration_over_R"].max() < 1e-4)
+            checks.that(f"{name}: bodies kept apart by less than 1e-4 R where they press on each other",
+                        table["contact_distance_over_R"][-1] < 1e-4)
+            if "quasistatic" in words or "--quasistatic" in words:
+                top, bottom = table["stress_top_Pa"][-5:], table["stress_bottom_Pa"][-5:]
+                if name == "quasistatic":
+                    checks.that("in balance", numpy.allclose(top, bottom, rtol=0.01), (top, bottom))
+
+
+def resumed(checks):
+    """A run up to 0.8, then on to 0.9, is the run to 0.9."""
+    words = ["--quasistatic", "--grains", "20", "--points", "60", "--seed", "4"]
+    with Folder() as folder:
+        run_example(folder, "compaction.py", "--out", "whole", "--until", "0.86", *words)
+        run_example(folder, "compaction.py", "--out", "parts", "--until", "0.82", *words)
+        run = run_example(folder, "compaction.py", "--out", "parts", "--resume", "--until", "0.86")
+        checks.that("resumed", run.returncode == 0, said(run))
+        whole, parts = (read_table(os.path.join(folder, name, "compaction.csv")) for name in ("whole", "parts"))
+        error = abs(whole["stress_top_Pa"] - parts["stress_top_Pa"]).max() / whole["stress_top_Pa"].max()
+        checks.that("the same", error < 1e-2, error)    # stresses of equilibria that Newton's method finds to 1e-3
+
+
+def auto(checks):
+    with Folder() as folder:
+        for speed, expected in (("0.001", "implicit"), ("0.5", "explicit")):
+            run = run_example(folder, "squeeze.py", "--integrator", "auto", "--speed", speed, "--squeeze", "0.02", "--points",
+                              "60", "--out", expected)
+            checks.that(f"auto at {speed} m/s", f"auto: {expected}" in run.stdout, said(run))
+            with open(os.path.join(folder, expected, "summary.json"), encoding="utf-8") as file:
+                chosen = json.load(file)["parameters"]["integrator"]
+            checks.that("what it picked stands in the summary", chosen == expected, chosen)
+
+
+def refusals(checks):
+    O.reset()
+    soft = O.materials.append(NeoHookeanMat(lambda_=61e6, mu=1.26e6, density=1000))
+    O.bodies.append(softDisc((0, 0), 1e-3, soft, 60))
+    O.engines = softEngines(dt=1e-5, integrator="implicit")
+    O.step()
+    O.bodies[0].state.blockedDOFs = "x"
+    for what, words in (("blocked degrees of freedom", ("#0", "blockedDOFs")), ("theta", ("theta", "0.3"))):
+        try:
+            O.step()
+            checks.that(what, False, "no error")
+        except RuntimeError as error:
+            checks.that(what, all(word in str(error) for word in words), str(error))
+        O.bodies[0].state.blockedDOFs = ""
+        O.engines[-1].theta = 0.3
+
+
+run_tests(squeeze, compaction, resumed, auto, refusals)
