@@ -9,7 +9,7 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import EXAMPLES, Folder, run_example, run_tests, said  # noqa: E402
-from softgrain.records import read_table  # noqa: E402
+from softgrain.records import read_rows, read_table  # noqa: E402
 
 COMPACTION = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
               "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
@@ -99,4 +99,21 @@ def rigid_compaction(checks):
         checks.that("volume does not change", abs(table["log_volume_change"]).max() < 1e-12)
 
 
-run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction)
+def packing_scatter(checks):
+    with Folder() as folder:
+        run = run_example(folder, "packing_scatter.py", "--quick", "--seeds", "2", "--grains", "12", "--out", "scatter")
+        checks.that("packing_scatter --quick", run.returncode == 0, said(run))
+        out = os.path.join(folder, "scatter")
+        rows = read_rows(os.path.join(out, "packing_scatter.csv"))
+        checks.that("a row a run", sorted((row["case"], row["seed"]) for row in rows)
+                    == sorted((case, seed) for case in {row["case"] for row in rows} for seed in (1, 2)) and len(rows) == 6)
+        for row in rows:
+            checks.that("Z grows from jamming on", 2 < row["Z_end"] < 6, row)
+        for number in (1, 2, 3):
+            checks.that(f"figure {number}", os.path.getsize(os.path.join(out, f"figure{number}.png")) > 10000)
+        curves = read_rows(os.path.join(out, "curves.csv"))
+        checks.that("mean curves", len(curves) > 50 and all(row["coordination_deviation"] >= 0 for row in curves
+                                                            if row["coordination_deviation"] == row["coordination_deviation"]))
+
+
+run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction, packing_scatter)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What packings of several seeds have in common: observables of each, means, standard errors, mean curves."""
+import math
+
+import numpy
+
+from . import jamming
+from .records import read_table, replace_text, shown
+
+REACH = 0.1             # of solid fraction beyond jamming, over which k is fitted
+COLUMNS = ("strain", "coordination", "stress_bottom_Pa", "log_volume_change")   # of the mean curves
+STEP = 0.005            # of solid fraction between their rows
+# Of one run. jamming_*: at the stress criterion; Z0: there; k: of Z - Z0 = k (phi - phi0)^0.5 by least squares; exponent:
+# the best b of eq. 10 for phi0 at jamming, and 0.01 and 0.02 beyond it; *_end: at the last row
+OBSERVABLES = ("jamming_fraction", "jamming_strain", "Z0", "k", "exponent", "exponent_1", "exponent_2", "Z_end",
+               "log_volume_change_end")
+
+
+def observables(table):
+    """dict of OBSERVABLES; nan for what a run does not reach."""
+    point = jamming.jamming_point(table)
+    result = dict.fromkeys(OBSERVABLES, math.nan)
+    result.update(Z_end=float(table["coordination"][-1]), log_volume_change_end=float(table["log_volume_change"][-1]))
+    if point is None:
+        return result
+    result.update(jamming_fraction=point["solid_fraction"], jamming_strain=point["strain"])
+    growth = jamming.growth_fits(table)
+    for name, fit in zip(("exponent", "exponent_1", "exponent_2"), growth):
+        result[name] = fit["best_exponent"]
+    if growth:
+        result["Z0"] = growth[0]["Z0"]
+        result["k"] = _prefactor(table, point["solid_fraction"], growth[0]["Z0"])
+    return result
+
+
+def _prefactor(table, fraction0, count0):
+    beyond = table["solid_fraction"] - fraction0
+    used = (beyond > 0) & (beyond <= REACH) & numpy.isfinite(table["coordination"])
+    root = numpy.sqrt(beyond[used])
+    return float(root @ (table["coordination"][used] - count0) / (root @ root))
+
+
+def over_seeds(rows):
+    """Observable -> (mean, standard error of the mean), of the rows in which it is a number."""
+    result = {}
+    for name in OBSERVABLES:
+        values = numpy.array([row[name] for row in rows if math.isfinite(row[name])])
+        if len(values):
+            error = values.std(ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+            result[name] = (float(values.mean()), float(error))
+    return result
+
+
+def curve_file(case, seed):
+    return "curve-" + "".join(letter if letter.isalnum() else "-" for letter in case.lower()) + f"-{seed}.csv"
+
+
+def keep(table, path):
+    """Writes solid_fraction and COLUMNS of a run."""
+    names = ("solid_fraction", *COLUMNS)
+    rows = numpy.stack([table[name] for name in names], axis=1)
+    replace_text(path, "\n".join([",".join(names), *(",".join(map(shown, row)) for row in rows.tolist())]) + "\n")
+
+
+def mean_curves(paths):
+    """Column -> arrays (solid fraction, mean, standard deviation over the runs), where all runs are."""
+    tables = [read_table(path) for path in paths]
+    first = max(table["solid_fraction"][0] for table in tables)
+    last = min(table["solid_fraction"][-1] for table in tables)
+    fraction = STEP * numpy.arange(math.ceil(first / STEP), math.floor(last / STEP) + 1)
+    result = {}
+    for name in COLUMNS:
+        values = numpy.array([numpy.interp(fraction, table["solid_fraction"], table[name]) for table in tables])
+        spread = values.std(axis=0, ddof=1) if len(values) > 1 else numpy.full(len(fraction), math.nan)
+        result[name] = (fraction, values.mean(axis=0), spread)
+    return result
+
+
+def write_curves(path, curves):
+    lines = [",".join(["case", "solid_fraction", *(f"{name}{end}" for name in COLUMNS for end in ("", "_deviation"))])]
+    for case, columns in curves.items():
+        fraction = columns[COLUMNS[0]][0]
+        rows = numpy.stack([fraction, *(values for name in COLUMNS for values in columns[name][1:])], axis=1)
+        lines += [",".join([case.replace(",", ";"), *map(shown, row)]) for row in rows.tolist()]
+    replace_text(path, "\n".join(lines) + "\n")
