@@ -25,7 +25,7 @@ from softgrain import *
 from softgrain import builders, options as opt, runs, summary
 from softgrain.checks import InputError
 from softgrain.packings import SoftPacking
-from softgrain.press import COLUMNS, Press, implicit_step
+from softgrain.press import Press, columns_of, implicit_step
 from yade import O
 
 QUICK = {"grains": 40, "points": 60, "until": 0.9}
@@ -89,7 +89,7 @@ def check(result, options):
 def main():
     options = read_options()
     opt.use_threads(options.threads)
-    run = runs.Run("compaction", options, COLUMNS)
+    run = runs.Run("compaction", options, columns_of)
     if not run.resumed:
         run.memory["box"] = make_scene(options)
     packing = SoftPacking(frictional=options.friction > 0 or options.wall_friction > 0)

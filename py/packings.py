@@ -34,7 +34,7 @@ class SoftPacking:
         return {"kinetic_J": soft.kineticEnergy(), "elastic_J": soft.elasticEnergy(),
                 "external_work_J": soft.externalWork, "friction_J": soft.frictionDissipation,
                 "contact_dissipation_J": soft.contactDissipation,
-                "numerical_dissipation_J": getattr(soft, "numericalDissipation", 0.0)}
+                **({"numerical_dissipation_J": soft.numericalDissipation} if self._implicit() else {})}
 
     def solver(self):
         """State of the solver in the last step: csv columns."""

@@ -16,8 +16,13 @@ from .stepping import WallForces
 OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
 COLUMNS = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
            "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
-           "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s,numerical_dissipation_J,"
-           "contact_distance_over_R,substeps,cut_steps").split(",")
+           "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s").split(",")
+IMPLICIT_COLUMNS = "numerical_dissipation_J,contact_distance_over_R,substeps,cut_steps".split(",")
+
+
+def columns_of(options):
+    """Columns of the csv for the integrator that was chosen."""
+    return COLUMNS + (IMPLICIT_COLUMNS if options.integrator == "implicit" else [])
 
 
 def implicit_step(box, speed):

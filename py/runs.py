@@ -34,7 +34,8 @@ class Run:
     options     of the command line; when resumed, the stored ones replace them
     memory      what the example wants to find again after --resume: a dict that json can hold
     resumed     whether the scene was loaded from a checkpoint
-    table       the csv file; of a new run after begin()
+    table       the csv file; of a new run after begin(). Its columns are given as a list, or as a function of the options
+                as they are then
     """
 
     def __init__(self, name, options, columns):
@@ -68,7 +69,11 @@ class Run:
         for pattern in OWN_FILES:
             for file in glob.glob(self.path(pattern)):
                 os.remove(file)
-        self.table = Table(self.path(f"{self.name}.csv"), self._columns)
+        self._open_table()
+
+    def _open_table(self, rows=0):
+        columns = self._columns(self.options) if callable(self._columns) else self._columns
+        self.table = Table(self.path(f"{self.name}.csv"), columns, rows)
 
     def path(self, file):
         return os.path.join(self.folder, file)
@@ -199,7 +204,7 @@ class Run:
         if "until" not in self.options.given and stored["until"] is not None:
             self.options.until = stored["until"]
         self._load_scene(stored)
-        self.table = Table(self.path(f"{self.name}.csv"), self._columns, stored["rows"])
+        self._open_table(stored["rows"])
         self.memory, self.resumed = stored["memory"], True
         self._cpu_before, self._wall_before = stored["cpu_s"], stored["wall_s"]
         if os.path.exists(self.path("summary.json")):

@@ -13,8 +13,7 @@ from softgrain.records import read_rows, read_table  # noqa: E402
 
 COMPACTION = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
               "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
-              "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s,numerical_dissipation_J,"
-              "contact_distance_over_R,substeps,cut_steps")
+              "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s")
 SQUEEZE = ("squeeze,force_per_thickness_N_m,contact_half_width_m,area_ratio,half_width_m,solid_fraction,min_J,cpu_s")
 
 

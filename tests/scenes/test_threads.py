@@ -11,7 +11,7 @@ from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
 def rows_without_cpu_time(folder, run):
     """The lines of the csv, as lists of words, without that column."""
     with open(os.path.join(folder, run, "compaction.csv"), encoding="ascii") as file:
-        lines = [line.split(",") for line in file]
+        lines = [line.strip().split(",") for line in file]
     place = lines[0].index("cpu_s")
     return [line[:place] + line[place + 1:] for line in lines]
 
