@@ -187,8 +187,10 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         mover = wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps)
     return [
         wrapper.ForceResetter(),
+        # with targetInterv the bound of a body at rest has no margin, and each one that starts to move costs a sort
         wrapper.InsertionSortCollider(
-            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb()], verletDist=verletDist),
+            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb()], verletDist=verletDist,
+            targetInterv=-1),
         *steppers,  # InteractionLoop looks ahead by the time step
         wrapper.InteractionLoop(
             [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),

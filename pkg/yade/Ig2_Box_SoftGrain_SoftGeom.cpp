@@ -48,7 +48,9 @@ bool Ig2_Box_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const share
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     Problems::guard([&] {
         outlineBox(static_cast<const Box&>(*shape1), state1, scene->dt, geom.rigid);
-        geom.pair.update(geom.rigid, static_cast<const SoftState&>(state2).grain.surface, scene->dt);
+        const auto& grain = static_cast<const SoftState&>(state2);
+        if (!geom.pair.apart(geom.rigid, grain.grain.surface, scene->dt))
+            geom.pair.update(geom.rigid, grain.surface(), scene->dt);
     });
     return interaction->isReal() || !geom.pair.points.empty();
 }

@@ -13,12 +13,12 @@ bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(const shared_ptr<Shape>&, const shared
                                           const State& state2, const Vector3r&, const bool&,
                                           const shared_ptr<Interaction>& interaction)
 {
-    if (!static_cast<const SoftState&>(state1).prepared() || !static_cast<const SoftState&>(state2).prepared()) return false;
-    const auto& first = static_cast<const SoftState&>(state1).grain.surface;
-    const auto& second = static_cast<const SoftState&>(state2).grain.surface;
+    const auto &first = static_cast<const SoftState&>(state1), &second = static_cast<const SoftState&>(state2);
+    if (!first.prepared() || !second.prepared()) return false;
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
-    Problems::guard([&] { geom.pair.update(first, second, scene->dt); });
+    if (geom.pair.apart(first.grain.surface, second.grain.surface, scene->dt)) return interaction->isReal();
+    Problems::guard([&] { geom.pair.update(first.surface(), second.surface(), scene->dt); });
     return interaction->isReal() || !geom.pair.points.empty();
 }
 

@@ -15,7 +15,8 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const shar
 {
     if (!static_cast<const SoftState&>(state2).prepared()) return false;
     const auto& wall = static_cast<const Wall&>(*shape1);
-    const auto& grain = static_cast<const SoftState&>(state2).grain;
+    const auto& soft = static_cast<const SoftState&>(state2);
+    const auto& grain = soft.grain;
     if (wall.axis > 1) return false;
     if (!state1.pos.allFinite() || !state1.vel.allFinite()) {
         Problems::note("wall #" + std::to_string(interaction->id1)
@@ -28,8 +29,9 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const shar
     geom.axis = wall.axis;
     geom.side = wall.sense != 0 ? wall.sense : grain.motion.position[wall.axis] >= state1.pos[wall.axis] ? 1 : -1;
     Problems::guard([&] {
-        geom.plane.update(grain.surface, wall.axis, state1.pos[wall.axis], geom.side, std::abs(state1.vel[wall.axis]),
-                          scene->dt);
+        const double place = state1.pos[wall.axis], speed = std::abs(state1.vel[wall.axis]);
+        const bool apart = geom.plane.apart(grain.surface, wall.axis, place, geom.side, speed, scene->dt);
+        geom.plane.update(apart ? grain.surface : soft.surface(), wall.axis, place, geom.side, speed, scene->dt);
     });
     return interaction->isReal() || !geom.plane.points.empty();
 }

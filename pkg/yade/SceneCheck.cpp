@@ -43,8 +43,12 @@ void requireSoftEngines(const Scene& scene)
 {
     std::set<std::string> needed;
     std::vector<std::string> walls; // what is wrong with them
+    bool soft = false;
     for (const auto& body : *scene.bodies) {
-        if (softStateOf(*body)) needed.insert({ "Ig2_SoftGrain_SoftGrain_SoftGeom", "Ip2_SoftMat_SoftMat_SoftPhys" });
+        if (softStateOf(*body)) {
+            soft = true;
+            continue;
+        }
         const auto* wall = dynamic_cast<const Wall*>(body->shape.get());
         const bool box = dynamic_cast<const Box*>(body->shape.get()) != nullptr;
         if ((wall || box) && !dynamic_cast<const FrictMat*>(body->material.get()))
@@ -56,11 +60,12 @@ void requireSoftEngines(const Scene& scene)
         if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get()))
             needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
     }
-    if (needed.count("Ip2_SoftMat_SoftMat_SoftPhys") == 0) return; // no soft grains
+    if (!soft) return;
     if (scene.isPeriodic)
         throw std::runtime_error("O.periodic=True: periodic scenes are not supported for soft grains; use walls.");
     if (!walls.empty()) throw std::runtime_error(walls.front());
-    needed.insert("Law2_SoftGeom_SoftPhys_ContactDynamics");
+    needed.insert(
+        { "Ig2_SoftGrain_SoftGrain_SoftGeom", "Ip2_SoftMat_SoftMat_SoftPhys", "Law2_SoftGeom_SoftPhys_ContactDynamics" });
 
     int integrators = 0, loops = 0;
     bool inOrder = true;

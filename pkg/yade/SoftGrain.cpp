@@ -30,16 +30,11 @@ void SoftGrain::postLoad(SoftGrain&)
     equivalentRadius_ = NaN;
 }
 
-bool SoftGrain::updated() const
+void SoftGrain::discretise()
 {
     if (formulation != "total" && formulation != "updated")
         throw softgrain::UserError("SoftGrain: formulation = '" + formulation + "' is none; give 'total' or 'updated'.");
-    return formulation == "updated";
-}
-
-void SoftGrain::discretise()
-{
-    updated();
+    updated_ = formulation == "updated";
     if (points < 16 || points > 100000)
         throw softgrain::UserError("SoftGrain: points = " + std::to_string(points) + " has to lie between 16 and 100000.");
     if (!(surfaceSpacing >= 0.1 && surfaceSpacing <= 4))

@@ -23,8 +23,12 @@ public:
         mesh();
         return equivalentRadius_;
     }
-    /// Throws softgrain::UserError.
-    bool updated() const;
+    /// The formulation is the updated-Lagrangian one.
+    bool updated()
+    {
+        mesh();
+        return updated_;
+    }
     int pointCount() { return mesh()->point_count(); }
     int surfaceCount() { return mesh()->surface_count(); }
     Real area();
@@ -74,6 +78,7 @@ private:
     void discretise();
     std::shared_ptr<const softgrain::Discretisation<2>> mesh_;
     Real equivalentRadius_ = NaN;
+    bool updated_ = false;
 };
 REGISTER_SERIALIZABLE(SoftGrain);
 

@@ -48,11 +48,14 @@ void SoftIntegrator::advance(double dt)
 {
     Stopwatch watch(stageSeconds);
 
+    pairs_.collect(*scene, touchingPairs());
+    pairs_.wantSurfaces();
+    watch.stage(1);
+
     loads_.gather(*scene, gravity, threads());
     assembly_->predict(dt, gravity.head<2>(), threads());
     watch.stage(0);
 
-    pairs_.collect(*scene, touchingPairs());
     pairs_.pose(*scene, recovery);
     if (fresh_)
         pairs_.refuseOverlaps();

@@ -33,6 +33,19 @@ void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching
             if (pair.id1 == known.id1 && pair.id2 == known.id2) pair.sum = known.sum;
 }
 
+void SoftPairs::wantSurfaces()
+{
+    for (SoftState* state : soft_.states)
+        state->grain.surface.wanted = false;
+    for (const Pair& pair : pairs_) {
+        for (SoftState* state : { pair.first, pair.second })
+            if (state) {
+                state->grain.renew_positions();
+                state->grain.surface.wanted = true;
+            }
+    }
+}
+
 void SoftPairs::pose(const Scene& scene, Real recovery)
 {
     deepest = 0;
@@ -85,12 +98,12 @@ void SoftPairs::refuseOverlaps() const
 {
     for (const Pair& pair : pairs_) {
         if (!pair.second->justPlaced && !(pair.first && pair.first->justPlaced)) continue;
-        const auto& second = pair.second->grain.surface;
+        const auto& second = pair.second->surface();
         Real depth = 0;
         for (const auto& point : pair.geom->points())
             depth = std::max(depth, -point.gap);
         if (pair.first) { // the smaller may be inside the larger, where its points touch nothing
-            const auto& first = pair.first->grain.surface;
+            const auto& first = pair.first->surface();
             const auto &larger = first.size > second.size ? first : second,
                        &smaller = first.size > second.size ? second : first;
             const auto middle = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;

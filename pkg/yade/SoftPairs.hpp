@@ -62,6 +62,8 @@ public:
     /// Takes the pairs, in any order, and the bodies of their problem; pairs that go on within a step keep their sums.
     void collect(const Scene& scene, std::vector<TouchingPair>&& touching, bool goOn = false);
     std::vector<Pair>& pairs() { return pairs_; }
+    /// Steps are to renew the whole surfaces of the grains in pairs, and of no others.
+    void wantSurfaces();
     /// Poses the problem of the contact points found at the start of a step. Shares of `recovery` of penetrations are taken back.
     void pose(const Scene& scene, Real recovery);
     /// Impulses to the surfaces.

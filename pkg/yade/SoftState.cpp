@@ -8,6 +8,8 @@
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
+#include <mutex>
+
 namespace yade {
 
 YADE_PLUGIN((SoftState));
@@ -221,6 +223,16 @@ void SoftState::publish()
     ori.normalize();
 }
 
+const softgrain::Surface<2>& SoftState::surface() const
+{
+    static std::mutex guard;
+    if (!grain.surface.wanted) {
+        const std::lock_guard<std::mutex> lock(guard);
+        const_cast<SoftState*>(this)->grain.renew_positions(); // what they say stays the same
+    }
+    return grain.surface;
+}
+
 /// Has a grain, or gets it now if it was loaded.
 bool SoftState::runs()
 {
@@ -257,7 +269,11 @@ boost::python::object SoftState::pointPositions() { return flattened(current().p
 boost::python::object SoftState::pointVelocities() { return flattened(current().point_velocities()); }
 boost::python::object SoftState::deformationGradients() { return flattened(current().deformation_gradients()); }
 boost::python::object SoftState::cauchyStress() { return flattened(current().cauchy_stresses()); }
-boost::python::object SoftState::outline() { return asBytes(current().surface.position); }
+boost::python::object SoftState::outline()
+{
+    current();
+    return asBytes(surface().position);
+}
 
 boost::python::object SoftState::pointVolumes()
 {

@@ -36,6 +36,8 @@ public:
         return { bool(blockedDOFs & DOF_X), bool(blockedDOFs & DOF_Y), bool(blockedDOFs & DOF_RZ) };
     }
     void preSave(SoftState&);
+    /// With positions as of now, which steps leave out where nothing touches. Threads may ask at once.
+    const softgrain::Surface<2>& surface() const;
 
     // what Python sees of State: other engines (NewtonIntegrator) change vel and angVel themselves
     Vector3r& velocity() { return prepared() ? asked.vel : vel; }

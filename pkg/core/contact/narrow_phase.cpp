@@ -64,10 +64,24 @@ namespace {
 
 } // namespace
 
+namespace {
+
+    template <int Dim> double reach_of_pair(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
+    {
+        const bool second_smaller = second_is_smaller(first, second);
+        return reach(second_smaller ? second : first, (second_smaller ? first : second).speed, dt);
+    }
+
+} // namespace
+
 template <int Dim> void PairContacts<Dim>::update(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
 {
-    const bool second_smaller = second_is_smaller(first, second);
-    look(first, second, reach(second_smaller ? second : first, (second_smaller ? first : second).speed, dt));
+    look(first, second, reach_of_pair(first, second, dt));
+}
+
+template <int Dim> bool PairContacts<Dim>::apart(const Surface<Dim>& first, const Surface<Dim>& second, double dt) const
+{
+    return points.empty() && first.travel + second.travel + reach_of_pair(first, second, dt) < memory.apart_until;
 }
 
 template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const Surface<Dim>& second, double near)
@@ -80,6 +94,7 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
         search(large, small, true, near + ahead, memory.near[1]);
         memory.valid_until = first.travel + second.travel + near + ahead;
     }
+    memory.apart_until = memory.valid_until;
     if (memory.near[0].empty() && memory.near[1].empty() && points.empty()) return;
     const double travel = first.travel + second.travel;
     thread_local std::vector<ContactPoint<Dim>> fresh; // keeps its room from pair to pair
@@ -88,13 +103,17 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
         const bool mine_small = on_second == second_smaller;
         const Surface<Dim>&mine = on_second ? second : first, &other = on_second ? first : second;
         for (Candidate& candidate : memory.near[mine_small ? 0 : 1]) {
-            if (travel + near < candidate.clear_until) continue;
+            if (travel + near < candidate.clear_until) {
+                memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
+                continue;
+            }
             Projection at = project(other, mine.x(candidate.point), candidate.face, candidate.place);
             const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
             at.gap += let;
             candidate.face = at.segment;
             candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
+            memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
             if (at.gap >= near) continue;
             fresh.push_back({ candidate.point, on_second, at.segment, at.vertex, at.weight, at.normal, at.gap, let });
         }
@@ -117,6 +136,15 @@ template <int Dim> double overlap(const Surface<Dim>& first, const Surface<Dim>&
     return deepest;
 }
 
+namespace {
+
+    template <int Dim> double distance(const Surface<Dim>& grain, int axis, double position, int side)
+    {
+        return side > 0 ? grain.min[axis] - position : position - grain.max[axis];
+    }
+
+} // namespace
+
 template <int Dim>
 void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed,
                                 double dt)
@@ -124,11 +152,17 @@ void PlaneContacts<Dim>::update(const Surface<Dim>& grain, int axis, double posi
     look(grain, axis, position, side, reach(grain, plane_speed, dt));
 }
 
+template <int Dim>
+bool PlaneContacts<Dim>::apart(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt)
+{
+    return distance(grain, axis, position, side) >= reach(grain, plane_speed, dt);
+}
+
 template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int axis, double position, int side, double near)
 {
     thread_local std::vector<ContactPoint<Dim>> fresh;
     fresh.clear();
-    const double closest = side > 0 ? grain.min[axis] - position : position - grain.max[axis];
+    const double closest = distance(grain, axis, position, side);
     near_ = closest < near + skin * grain.size;
     if (closest < near)
         for (int p = 0; p < grain.count; ++p) {

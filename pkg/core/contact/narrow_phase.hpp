@@ -39,6 +39,8 @@ public:
     void update(const Surface<Dim>& first, const Surface<Dim>& second, double dt);
     /// The same for gaps below `near` [m].
     void look(const Surface<Dim>& first, const Surface<Dim>& second, double near);
+    /// update() would find nothing: its memory tells without a look at positions.
+    bool apart(const Surface<Dim>& first, const Surface<Dim>& second, double dt) const;
 
     std::vector<ContactPoint<Dim>> points;
     /// Points of the one are so near the other that the pair is worth keeping.
@@ -54,6 +56,8 @@ public:
     struct Memory {
         std::array<std::vector<Candidate>, 2> near;
         double valid_until = -1;
+        /// The same up to which no point can be in touch.
+        double apart_until = -1;
     };
     Memory memory;
 
@@ -70,6 +74,8 @@ template <int Dim> class PlaneContacts {
 public:
     /// Contact points with the plane x[axis] = position, grains on the `side` (+1 or -1) of it.
     void update(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt);
+    /// update() would find nothing: the box tells without a look at positions.
+    static bool apart(const Surface<Dim>& grain, int axis, double position, int side, double plane_speed, double dt);
     /// The same for gaps below `near` [m].
     void look(const Surface<Dim>& grain, int axis, double position, int side, double near);
 

@@ -11,12 +11,14 @@ namespace softgrain {
 /// grid; a rigid polygon from its motion.
 template <int Dim> struct Surface {
     int count = 0;
-    std::vector<double> position;                            ///< [point][Dim] [m], counter-clockwise in 2D
-    std::vector<double> velocity;                            ///< [point][Dim] [m/s]; the contact solver works on it
-    std::vector<double> velocity_before;                     ///< [point][Dim] [m/s], at the start of the step
-    std::vector<double> impulse;                             ///< [point][Dim] [N s], what contact gave in this step
-    bool struck = false;                                     ///< by impulses in this step; else they are zero
-    std::vector<char> corner;                                ///< [point], see BoundaryPoint
+    std::vector<double> position;        ///< [point][Dim] [m], counter-clockwise in 2D
+    std::vector<double> velocity;        ///< [point][Dim] [m/s]; the contact solver works on it
+    std::vector<double> velocity_before; ///< [point][Dim] [m/s], at the start of the step
+    std::vector<double> impulse;         ///< [point][Dim] [N s], what contact gave in this step
+    bool struck = false;      ///< in this step: its impulses are not zero, or its nodes were given other velocities
+    bool wanted = true;       ///< by contact, in every step; else steps renew box, speed and travel alone
+    bool stale = false;       ///< positions are of an earlier step, Grain::renew_positions() brings them
+    std::vector<char> corner; ///< [point], see BoundaryPoint
     Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
     double speed = 0;                                        ///< largest speed of a point [m/s]
     double travel = 0;                                       ///< bound on the path of any point since the start [m]

@@ -103,6 +103,8 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
     std::map<std::pair<const void*, const void*>, std::vector<Grain<Dim>*>> groups;
     std::vector<std::pair<const void*, const void*>> order;
     for (Grain<Dim>* grain : grains_) {
+        grain->surface.wanted = true;
+        grain->renew_positions();
         if (grain->updated) {
             updated_.push_back(grain);
             continue;
@@ -131,7 +133,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
                     batch->velocity[i * lanes + lane] = grain.velocity[i];
                 }
             }
-            motion_kernels<Dim>().observe[batch->wide()](batch->data(), batch->sums.data()); // slaves
+            motion_kernels<Dim>().extend[batch->wide()](batch->data());
             batches_.push_back(std::move(batch));
             members_.push_back(part);
         }
@@ -159,6 +161,11 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
+        const auto& kernels = motion_kernels<Dim>();
+        if (std::any_of(members_[b].begin(), members_[b].end(),
+                        [](const Grain<Dim>* grain) { return grain->surface.wanted; }))
+            kernels.velocities[batch.wide()](batch.data(), batch.extent.data());
+        hand_out(b, &Surface<Dim>::velocity_before);
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
         double least = 1;
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
@@ -167,18 +174,11 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
             if (!(grain.min_J >= least)) least = grain.min_J; // also when it is no number
             for (int d = 0; d < Dim; ++d)
                 batch.gain[d * lanes + lane] = dt * (gravity[d] + grain.acceleration[d]) / grain.radius;
-            grain.surface.velocity_before.swap(grain.surface.velocity); // filled below
             if (grain.spin_acceleration != Mat<Dim>::Zero())
                 grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
         }
-        motion_kernels<Dim>().kick[batch.wide()](batch.data(), dt, batch.gain.data());
-        const double* values = batch.surface();
-        for (size_t lane = 0; lane < members_[b].size(); ++lane) {
-            Grain<Dim>& grain = *members_[b][lane];
-            Surface<Dim>& surface = grain.surface;
-            for (size_t i = 0; i < surface.velocity.size(); ++i)
-                surface.velocity[i] = grain.radius * values[i * lanes + lane];
-        }
+        kernels.kick[batch.wide()](batch.data(), dt, batch.gain.data(), batch.extent.data());
+        hand_out(b, &Surface<Dim>::velocity);
         least_J_[b] = least;
     }
     const int single = int(updated_.size());
@@ -208,17 +208,19 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         bool struck = false;
         for (Grain<Dim>* grain : members_[b]) {
             if (before) before(*grain);
-            struck |= std::exchange(grain->surface.struck, false);
+            struck |= grain->surface.struck;
         }
         const auto& kernels = motion_kernels<Dim>();
         if (struck) {
+            std::fill_n(values, size_t(Dim) * batch.mesh->surface_count() * lanes, 0);
             for (size_t lane = 0; lane < members_[b].size(); ++lane) {
                 Grain<Dim>& grain = *members_[b][lane];
+                if (!std::exchange(grain.surface.struck, false)) continue;
                 const double unit = grain.surface.mobility / grain.radius;
                 for (size_t i = 0; i < grain.surface.impulse.size(); ++i)
                     values[i * lanes + lane] = unit * std::exchange(grain.surface.impulse[i], 0);
             }
-            kernels.push[batch.wide()](batch.data());
+            kernels.push[batch.wide()](batch.data(), batch.extent.data());
         }
         kernels.drift[batch.wide()](batch.data(), dt);
         sound[b] = observe(b, dt, after);
@@ -251,6 +253,7 @@ template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit
         Batch<Dim>& batch = *batches_[b];
         motion_kernels<Dim>().extend[batch.wide()](batch.data());
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
+        motion_kernels<Dim>().velocities[batch.wide()](batch.data(), batch.extent.data());
         least_J_[b] = 1;
         for (size_t lane = 0; lane < members_[b].size(); ++lane)
             least_J_[b] = std::min(least_J_[b], members_[b][lane]->min_J = batch.per_lane[lane]);
@@ -264,35 +267,42 @@ template <int Dim> bool Assembly<Dim>::observe(int b, double dt, const Visit& af
 {
     Batch<Dim>& batch = *batches_[b];
     const int lanes = batch.lanes;
-    const double* values = batch.surface();
     bool sound = true;
-    motion_kernels<Dim>().observe[batch.wide()](batch.data(), batch.sums.data());
+    motion_kernels<Dim>().observe[batch.wide()](batch.data(), batch.sums.data(), batch.extent.data());
+    hand_out(b, &Surface<Dim>::position);
     for (size_t lane = 0; lane < members_[b].size(); ++lane) {
         Grain<Dim>& grain = *members_[b][lane];
         Surface<Dim>& surface = grain.surface;
-        double speed2 = 0;
-        Vec<Dim> lo = Vec<Dim>::Constant(1e300), hi = -lo;
-        for (int p = 0; p < surface.count; ++p) {
-            double v2 = 0;
-            for (int d = 0; d < Dim; ++d) {
-                const size_t i = size_t(Dim) * p + d;
-                const double x = grain.origin[d] + grain.radius * values[i * lanes + lane];
-                surface.position[i] = x;
-                lo[d] = std::min(lo[d], x);
-                hi[d] = std::max(hi[d], x);
-                v2 += surface.velocity[i] * surface.velocity[i];
-            }
-            speed2 = std::max(speed2, v2);
+        using Extent = SurfaceExtent<Dim>;
+        const auto extent = [&](int entry) { return batch.extent[size_t(entry) * lanes + lane]; };
+        for (int d = 0; d < Dim; ++d) {
+            surface.min[d] = grain.origin[d] + grain.radius * extent(Extent::low + d);
+            surface.max[d] = grain.origin[d] + grain.radius * extent(Extent::high + d);
         }
-        surface.min = lo;
-        surface.max = hi;
-        surface.speed = std::sqrt(speed2);
+        surface.speed = grain.radius * std::sqrt(extent(Extent::speed2));
         surface.travel += dt * surface.speed;
+        surface.stale = !surface.wanted;
         grain.motion = motion_of(grain, batch.sums.data() + lane, lanes);
         sound &= is_finite(grain);
         if (after) after(grain);
     }
     return sound;
+}
+
+/// What a kernel found at the surfaces of a batch, to those that are wanted.
+template <int Dim> void Assembly<Dim>::hand_out(int b, std::vector<double> Surface<Dim>::*field)
+{
+    const double* values = batches_[b]->surface();
+    const int lanes = batches_[b]->lanes;
+    for (size_t lane = 0; lane < members_[b].size(); ++lane) {
+        Grain<Dim>& grain = *members_[b][lane];
+        if (!grain.surface.wanted) continue;
+        const Vec<Dim> offset = field == &Surface<Dim>::position ? grain.origin : Vec<Dim>(Vec<Dim>::Zero());
+        double* to = (grain.surface.*field).data();
+        for (int p = 0; p < grain.surface.count; ++p)
+            for (int d = 0; d < Dim; ++d)
+                to[Dim * p + d] = offset[d] + grain.radius * values[(size_t(Dim) * p + d) * lanes + lane];
+    }
 }
 
 template <int Dim> void Assembly<Dim>::report_unsound(const std::vector<char>& sound, double dt)

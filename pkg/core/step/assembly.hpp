@@ -59,6 +59,7 @@ public:
 
 private:
     bool observe(int b, double dt, const Visit& after);
+    void hand_out(int b, std::vector<double> Surface<Dim>::*field);
     void report_unsound(const std::vector<char>& sound, double dt);
 
     std::vector<Grain<Dim>*> grains_;

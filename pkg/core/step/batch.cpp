@@ -22,6 +22,7 @@ Batch<Dim>::Batch(std::shared_ptr<const Discretisation<Dim>> mesh_, const LawKer
     , parameters(size_t(max_parameters) * lanes)
     , inverse_inertia(lanes)
     , sums(size_t(MotionSums<Dim>::count) * lanes)
+    , extent(size_t(SurfaceExtent<Dim>::count) * lanes)
     , gain(size_t(Dim) * lanes)
     , per_lane(2 * size_t(lanes))
 {

@@ -46,6 +46,11 @@ template <int Dim> struct MotionSums {
                          gradient = kinetic + 1, count = gradient + Dim * Dim;
 };
 
+/// What becomes of the surface of a grain as a whole: where the entries of the array stand.
+template <int Dim> struct SurfaceExtent {
+    static constexpr int speed2 = 0, low = 1, high = 1 + Dim, count = 1 + 2 * Dim; ///< [radius2/s2], [radius], [radius]
+};
+
 /// A kernel for batches of one lane and of eight.
 template <int Dim, class... Arguments> using KernelPair = std::array<void (*)(const KernelData<Dim>&, Arguments...), 2>;
 
@@ -77,16 +82,19 @@ template <int Dim> struct LawKernels {
 
 /// Kernels of every law.
 template <int Dim> struct MotionKernels {
-    /// v += dt f / m + gain, gain [Dim][lane]; v at the surface into `surface`.
-    KernelPair<Dim, double, double*> kick;
-    /// v += impulses in `surface` [density radius^(Dim+1) / s] over the masses.
-    KernelPair<Dim> push;
+    /// v at the surface into `surface`, its largest size into `extent`.
+    KernelPair<Dim, double*> velocities;
+    /// v += dt f / m + gain, gain [Dim][lane]; then as velocities.
+    KernelPair<Dim, double, double*, double*> kick;
+    /// v += impulses in `surface` [density radius^(Dim+1) / s] over the masses; then as velocities.
+    KernelPair<Dim, double*> push;
     /// u += dt v.
     KernelPair<Dim, double> drift;
     /// Displacements of the slaves.
     KernelPair<Dim> extend;
-    /// Displacements of the slaves; surface positions into `surface`; motion sums [count][lane] into `sums`.
-    KernelPair<Dim, double*> observe;
+    /// Displacements of the slaves; surface positions into `surface`, their box into `extent`; motion sums [count][lane]
+    /// into `sums`.
+    KernelPair<Dim, double*, double*> observe;
 };
 
 /// The laws there are. Throws UserError, naming them, for another name.
@@ -105,7 +113,7 @@ public:
     /// room, which then stays in its cache.
     double* surface();
     double* force();
-    AlignedVector displacement, velocity, parameters, inverse_inertia, sums, gain, per_lane;
+    AlignedVector displacement, velocity, parameters, inverse_inertia, sums, extent, gain, per_lane;
 
     KernelData<Dim> data();
     /// Index into the kernel tables.

@@ -72,7 +72,7 @@ template <int Dim> Batch<Dim> Grain<Dim>::alone() const
     std::copy(parameters.begin(), parameters.end(), batch.parameters.begin());
     std::copy(displacement.begin(), displacement.end(), batch.displacement.begin());
     std::copy(velocity.begin(), velocity.end(), batch.velocity.begin());
-    motion_kernels<Dim>().observe[0](batch.data(), batch.sums.data());
+    motion_kernels<Dim>().observe[0](batch.data(), batch.sums.data(), batch.extent.data());
     return batch;
 }
 
@@ -112,20 +112,31 @@ template <int Dim> void Grain<Dim>::refresh_from_nodes()
     motion = motion_of(*this, alone.sums.data(), 1);
     surface.response = mesh.get();
     const std::vector<double> v = with_slaves(velocity);
-    for (int p = 0; p < surface.count; ++p) {
+    for (int p = 0; p < surface.count; ++p)
         surface.v(p) = radius * mesh->at_surface(p, v.data());
+    take_positions(alone.surface());
+}
+
+template <int Dim> void Grain<Dim>::take_positions(const double* of_surface)
+{
+    for (int p = 0; p < surface.count; ++p)
         for (int d = 0; d < Dim; ++d)
-            surface.position[size_t(Dim) * p + d] = origin[d] + radius * alone.surface()[size_t(Dim) * p + d];
-    }
+            surface.position[size_t(Dim) * p + d] = origin[d] + radius * of_surface[size_t(Dim) * p + d];
+    surface.stale = false;
+}
+
+template <int Dim> void Grain<Dim>::renew_positions()
+{
+    if (!surface.stale) return;
+    pull();
+    take_positions(alone().surface());
 }
 
 template <int Dim> void Grain<Dim>::settle()
 {
     updated->settle(*mesh);
     motion = motion_of(*this, updated->sums(*mesh).data(), 1);
-    for (int p = 0; p < surface.count; ++p)
-        for (int d = 0; d < Dim; ++d)
-            surface.position[size_t(Dim) * p + d] = origin[d] + radius * updated->surface[p][d];
+    take_positions(updated->surface[0].data());
 }
 
 template <int Dim> void Grain<Dim>::pull()
@@ -153,7 +164,8 @@ template <int Dim> void Grain<Dim>::translate(const Vec<Dim>& shift)
     for (int p = 0; p < surface.count; ++p)
         Eigen::Map<Vec<Dim>>(&surface.position[size_t(Dim) * p]) += shift;
     surface.travel += shift.norm();
-    surface.bound();
+    surface.min += shift;
+    surface.max += shift;
 }
 
 template <int Dim> void Grain<Dim>::add_velocity(const Vec<Dim>& of_centre, const Mat<Dim>& gradient)
@@ -175,6 +187,7 @@ template <int Dim> void Grain<Dim>::add_to_nodes(const Vec<Dim>& centre, const V
         Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * i]) += of_centre + gradient * (mesh->node_position[i] + u - centre);
     }
     put();
+    surface.struck = true;
 }
 
 template <int Dim> std::vector<Mat<Dim>> Grain<Dim>::deformation_gradients() const

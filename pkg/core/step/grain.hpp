@@ -46,6 +46,8 @@ template <int Dim> struct Grain {
     void refresh();
     /// Surface and motion of an updated-Lagrangian grain after its points have moved: lays its grid anew.
     void settle();
+    /// Positions of the surface points, where they are stale.
+    void renew_positions();
     /// Moves the grain as it is.
     void translate(const Vec<Dim>& shift);
     /// Adds a rigid motion to the velocities of nodes and surface: of the centre of mass [m/s], and about it [1/s].
@@ -70,6 +72,7 @@ template <int Dim> struct Grain {
 
 private:
     void refresh_from_nodes();
+    void take_positions(const double* of_surface);
     void add_to_nodes(const Vec<Dim>& centre, const Vec<Dim>& of_centre, const Mat<Dim>& gradient);
     Batch<Dim> alone() const;
     std::vector<Vec<Dim>> at_points(const std::vector<double>& field) const;

@@ -120,7 +120,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::eval
         for (size_t k = 0; k < part.base.size(); ++k)
             batch.displacement[k] = part.base[k] + share * part.step[k];
         KernelData<Dim> data = batch.data();
-        motion_kernels<Dim>().observe[batch.wide()](data, batch.sums.data());
+        motion_kernels<Dim>().observe[batch.wide()](data, batch.sums.data(), batch.extent.data());
         batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + lanes);
         part.potential = 0;
         part.farthest = 0;

@@ -78,11 +78,12 @@ template <int Dim> const LawKernels<Dim>& law_kernels(const std::string& name)
 
 template <int Dim> const MotionKernels<Dim>& motion_kernels()
 {
-    static const MotionKernels<Dim> all { Versions<kernels::Kick<Dim>, Dim, double, double*>::table(),
-                                          Versions<kernels::Push<Dim>, Dim>::table(),
+    static const MotionKernels<Dim> all { Versions<kernels::Velocities<Dim>, Dim, double*>::table(),
+                                          Versions<kernels::Kick<Dim>, Dim, double, double*, double*>::table(),
+                                          Versions<kernels::Push<Dim>, Dim, double*>::table(),
                                           Versions<kernels::Drift<Dim>, Dim, double>::table(),
                                           Versions<kernels::Extend<Dim>, Dim>::table(),
-                                          Versions<kernels::Observe<Dim>, Dim, double*>::table() };
+                                          Versions<kernels::Observe<Dim>, Dim, double*, double*>::table() };
     return all;
 }
 

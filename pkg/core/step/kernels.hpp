@@ -336,8 +336,33 @@ template <int Dim, class Law> struct Energy {
     }
 };
 
+/// Velocities at the surface, and the largest.
+template <int Dim, class T, int L> SOFTGRAIN_INLINE void surface_velocity(const KernelData<Dim>& data, double* extent)
+{
+    extend<Dim, T, L>(data, data.velocity);
+    interpolate<Dim, T, L>(data, data.velocity);
+    const auto s = field<T, L>(data.surface);
+    T fastest {};
+    for (int p = 0; p < data.surface_count; ++p) {
+        T square {};
+#pragma GCC unroll 3
+        for (int d = 0; d < Dim; ++d)
+            square += s[Dim * p + d] * s[Dim * p + d];
+        fastest = larger(square, fastest);
+    }
+    field<T, L>(extent)[SurfaceExtent<Dim>::speed2] = fastest;
+}
+
+template <int Dim> struct Velocities {
+    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* extent)
+    {
+        surface_velocity<Dim, T, L>(data, extent);
+    }
+};
+
 template <int Dim> struct Kick {
-    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double dt, double* gain)
+    template <class T, int L>
+    static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double dt, double* gain, double* extent)
     {
         const auto v = field<T, L>(data.velocity), f = field<T, L>(data.force), g = field<T, L>(gain);
         const T scale = dt * item<T, L>(data.inverse_inertia, 0);
@@ -347,13 +372,12 @@ template <int Dim> struct Kick {
             for (int d = 0; d < Dim; ++d)
                 v[Dim * i + d] += k * f[Dim * i + d] + g[d];
         }
-        extend<Dim, T, L>(data, data.velocity);
-        interpolate<Dim, T, L>(data, data.velocity);
+        surface_velocity<Dim, T, L>(data, extent);
     }
 };
 
 template <int Dim> struct Push {
-    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data)
+    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* extent)
     {
         clear<Dim, T, L>(data, data.force);
         const auto f = field<T, L>(data.force), s = field<T, L>(data.surface), v = field<T, L>(data.velocity);
@@ -369,6 +393,7 @@ template <int Dim> struct Push {
 #pragma GCC unroll 3
             for (int d = 0; d < Dim; ++d)
                 v[Dim * i + d] += data.inverse_mass[i] * f[Dim * i + d];
+        surface_velocity<Dim, T, L>(data, extent);
     }
 };
 
@@ -389,7 +414,7 @@ template <int Dim> struct Extend {
 };
 
 template <int Dim> struct Observe {
-    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* sums)
+    template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* sums, double* extent)
     {
         using Sums = MotionSums<Dim>;
         T total[Sums::count] {};
@@ -420,10 +445,24 @@ template <int Dim> struct Observe {
 
         extend<Dim, T, L>(data, data.displacement);
         interpolate<Dim, T, L>(data, data.displacement);
+        T low[Dim], high[Dim];
+        for (int d = 0; d < Dim; ++d) {
+            low[d] = broadcast<T>(1e300);
+            high[d] = broadcast<T>(-1e300);
+        }
         for (int p = 0; p < data.surface_count; ++p)
 #pragma GCC unroll 3
-            for (int d = 0; d < Dim; ++d)
-                s[Dim * p + d] += data.surface_point[p].position[d];
+            for (int d = 0; d < Dim; ++d) {
+                const T x = s[Dim * p + d] + data.surface_point[p].position[d];
+                s[Dim * p + d] = x;
+                low[d] = smaller(x, low[d]);
+                high[d] = larger(x, high[d]);
+            }
+        const auto box = field<T, L>(extent);
+        for (int d = 0; d < Dim; ++d) {
+            box[SurfaceExtent<Dim>::low + d] = low[d];
+            box[SurfaceExtent<Dim>::high + d] = high[d];
+        }
     }
 };
 

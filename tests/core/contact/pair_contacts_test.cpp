@@ -96,7 +96,7 @@ void tumble(Surface<2> first, Surface<2> second, double step, bool jumps, unsign
     const double dt = 1e-3;
     PairContacts<2> pair;
     move(second, Vec<2>(first.max.x() - second.min.x() + 0.1, 0.2), 0, dt);
-    int touches = 0, only_near = 0;
+    int touches = 0, only_near = 0, apart = 0;
     double factor = 1;
     Vec<2> drift = Vec<2>::Zero();
     for (int k = 0; k < 4000; ++k) {
@@ -116,7 +116,10 @@ void tumble(Surface<2> first, Surface<2> second, double step, bool jumps, unsign
             body->speed = 1.5 * step / dt;
             body->travel = travel + 1.5 * step;
         }
-        pair.update(first, second, dt);
+        if (pair.apart(first, second, dt))
+            ++apart;
+        else
+            pair.update(first, second, dt);
         const int contacts = compare(pair, first, second, dt);
         if (::testing::Test::HasFailure()) FAIL() << "in step " << k;
         touches += contacts > 0;
@@ -124,6 +127,7 @@ void tumble(Surface<2> first, Surface<2> second, double step, bool jumps, unsign
     }
     EXPECT_GT(touches, 200);
     EXPECT_GT(only_near, 50);
+    EXPECT_GT(apart, 50);
 }
 
 const DiscOutline disc;
