@@ -76,7 +76,7 @@ struct Press {
     }
     double residual()
     {
-        const double total = world.total_energy() + world.balance.contact_dissipation + world.balance.friction;
+        const double total = world.energy() + world.balance.contact_dissipation + world.balance.friction;
         return (total + world.dissipated) / world.balance.external_work - 1;
     }
     double stress() const { return world.plane_force[3].y() / width; }

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <deque>
+
 namespace softgrain::testing_support {
 
 struct Material {
@@ -50,6 +52,14 @@ inline Grain<2> make_grain(std::shared_ptr<const Discretisation<2>> mesh, const 
     if (start.updated) grain.updated.emplace();
     grain.place(start.centre, turn(start.angle), start.velocity, start.velocity_gradient);
     return grain;
+}
+
+inline std::vector<Grain<2>*> pointers(std::deque<Grain<2>>& grains)
+{
+    std::vector<Grain<2>*> all;
+    for (auto& grain : grains)
+        all.push_back(&grain);
+    return all;
 }
 
 } // namespace softgrain::testing_support
