@@ -2,6 +2,7 @@
 // Grains that meet: balances of momentum and energy, threads and lanes.
 #include "support/layouts.hpp"
 #include "support/sums.hpp"
+#include "support/twelve_discs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -197,19 +198,9 @@ TEST(Result, IsTheSameBitForBitInEveryLane)
 TEST(Compaction, TwelveDiscsStayWhole)
 {
     World world;
-    Random random(7);
-    double area = 0;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 3; ++j) {
-            GrainStart start;
-            start.centre = 2.5e-3 * Vec<2>(i + 0.5, j + 0.5) + random.vector<2>(1e-4);
-            start.angle = random.uniform(0, 7);
-            const double radius = random.uniform(0.7e-3, 1.15e-3);
-            area += M_PI * radius * radius;
-            world.add(make_grain(disc_mesh(124), j % 2 ? neo_hookean() : mooney_rivlin(), start, radius));
-        }
-    const double width = 1e-2;
-    world.planes = { { 0, 1, 0, 0 }, { 0, -1, width, 0 }, { 1, 1, 0, 0 }, { 1, -1, 7.5e-3, -1 } };
+    const TwelveDiscs discs(world, [](int row, const GrainStart& start, double radius) { // a mesh and so a batch for each
+        return make_grain(disc_mesh(124), row % 2 ? neo_hookean() : mooney_rivlin(), start, radius);
+    });
     world.solver.tolerance = 1e-3;
     std::vector<double> unit;
     for (const auto& grain : world.grains)
@@ -223,7 +214,7 @@ TEST(Compaction, TwelveDiscsStayWhole)
         }
     };
     renew();
-    while (area / (width * world.planes[3].position) < 0.95) {
+    while (discs.solid_fraction() < 0.95) {
         world.step(dt);
         deepest = std::min(deepest, world.deepest);
         if (world.steps % 20 == 0) {
@@ -238,7 +229,7 @@ TEST(Compaction, TwelveDiscsStayWhole)
     EXPECT_GE(world.balance.contact_dissipation, 0);
     for (const auto& grain : world.grains) {
         EXPECT_GT(grain.surface.min.x(), -1e-5);
-        EXPECT_LT(grain.surface.max.x(), width + 1e-5);
+        EXPECT_LT(grain.surface.max.x(), discs.width + 1e-5);
     }
     std::printf("12 discs to 0.95: %d steps, %.1f sweeps a step, J >= %.3f, deepest %.1e R, energy %+.1e of the work, "
                 "residual %.1e\n",
