@@ -16,7 +16,7 @@ import numpy
 
 from softgrain import *
 from softgrain import jamming, options as opt, runs, scatter, summary
-from softgrain.records import read_json, read_table
+from softgrain.records import read_json, read_table, shown
 from softgrain.study import Job, Study
 
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
@@ -70,7 +70,7 @@ def make_job(study, case, seed, options):
         scatter.keep(table, study.path(scatter.curve_file(case, seed)))
         return {**scatter.observables(table), "cpu_s": read_json(os.path.join(folder, "summary.json"))["cost"]["cpu_s"]}
 
-    return Job({"case": case.replace(",", ";"), "seed": seed}, os.path.join(HERE, script), arguments, read, cost)
+    return Job({"case": case, "seed": seed}, os.path.join(HERE, script), arguments, read, cost)
 
 
 def main():
@@ -87,7 +87,7 @@ def conclude(study, options):
 
     rows = study.rows()
     done = [row for row in rows if row["status"] == "done"]
-    means = {case: scatter.over_seeds([row for row in done if row["case"] == case.replace(",", ";")])
+    means = {case: scatter.over_seeds([row for row in done if row["case"] == shown(case)])
              for case in cases(options)}
     curves = {case: scatter.mean_curves([study.path(scatter.curve_file(case, seed))
                                          for seed in range(1, options.seeds + 1)]) for case in cases(options)}

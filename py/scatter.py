@@ -81,5 +81,5 @@ def write_curves(path, curves):
     for case, columns in curves.items():
         fraction = columns[COLUMNS[0]][0]
         rows = numpy.stack([fraction, *(values for name in COLUMNS for values in columns[name][1:])], axis=1)
-        lines += [",".join([case.replace(",", ";"), *map(shown, row)]) for row in rows.tolist()]
+        lines += [",".join(map(shown, [case, *row])) for row in rows.tolist()]
     replace_text(path, "\n".join(lines) + "\n")

@@ -96,7 +96,7 @@ class Study(Run):
         else:
             with open(os.path.join(folder, "said.txt"), encoding="utf-8") as said:
                 lines = [line for line in said.read().splitlines() if line.startswith(os.path.basename(job.example))]
-            result["status"] = (lines[-1] if lines else f"exit code {process.returncode}").replace(",", ";")
+            result["status"] = lines[-1] if lines else f"exit code {process.returncode}"
         self.table.append({**job.key, **result})
         self.checkpoint()
         shutil.rmtree(folder)
