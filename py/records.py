@@ -45,13 +45,11 @@ class Table:
 
 
 def read_table(path):
-    """A csv file as a dict from column to array of float."""
+    """A csv file of numbers as a dict from column to array of float."""
     import numpy
 
-    with open(path, encoding="ascii") as file:
-        lines = file.read().splitlines()
-    columns = lines[0].split(",")
-    values = numpy.array([[float(word) for word in line.split(",")] for line in lines[1:]])
+    columns, rows = _read(path)
+    values = numpy.array([[float(word) for word in row] for row in rows])
     return {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)}
 
 
@@ -63,10 +61,15 @@ def read_rows(path):
         except ValueError:
             return word
 
+    columns, rows = _read(path)
+    return [dict(zip(columns, map(value, row))) for row in rows]
+
+
+def _read(path):
+    """The columns of a csv file and its rows, as lists of words. Lines that begin with # are comments."""
     with open(path, encoding="ascii") as file:
-        lines = file.read().splitlines()
-    columns = lines[0].split(",")
-    return [dict(zip(columns, map(value, line.split(",")))) for line in lines[1:]]
+        columns, *rows = (line.split(",") for line in file.read().splitlines() if not line.startswith("#"))
+    return columns, rows
 
 
 def replace_text(path, text):

@@ -16,7 +16,7 @@ FRACTIONS = (0.92, 0.98)    # solid fractions of a packing over which its observ
 def of_grain(folder, reference):
     """Observables of a squeeze between plates. Errors are relative to the finite elements in the file `reference`:
     root mean square and largest error of the force; root mean square error of the area over the area lost."""
-    table, summary, true = read_table(os.path.join(folder, "squeeze.csv")), _summary(folder), _reference(reference)
+    table, summary, true = read_table(os.path.join(folder, "squeeze.csv")), _summary(folder), read_table(reference)
     inside = (table["squeeze"] >= SQUEEZES[0] - 1e-9) & (table["squeeze"] <= SQUEEZES[1] + 1e-9)
     at = table["squeeze"][inside]
     force = table["force_per_thickness_N_m"][inside] / _cubic(true["squeeze"], true["F_N_per_m"], at) - 1
@@ -101,14 +101,6 @@ def _cost(summary):
 
 def _summary(folder):
     return read_json(os.path.join(folder, "summary.json"))
-
-
-def _reference(path):
-    """Columns of a reference table: comment lines, a line of names, rows."""
-    with open(path, encoding="utf-8") as file:
-        lines = [line.strip() for line in file if line.strip() and not line.startswith("#")]
-    rows = numpy.array([[float(word) for word in line.split(",")] for line in lines[1:]])
-    return dict(zip(lines[0].split(","), rows.T))
 
 
 def _cubic(x, y, at):
