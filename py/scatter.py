@@ -5,7 +5,7 @@ import math
 import numpy
 
 from . import jamming
-from .records import read_table, replace_text, shown
+from .records import read_table, write_table
 
 REACH = 0.1             # of solid fraction beyond jamming, over which k is fitted
 COLUMNS = ("strain", "coordination", "stress_bottom_Pa", "log_volume_change")   # of the mean curves
@@ -34,6 +34,7 @@ def observables(table):
 
 
 def _prefactor(table, fraction0, count0):
+    """k of Z - count0 = k (phi - fraction0)^0.5 over REACH, by least squares."""
     beyond = table["solid_fraction"] - fraction0
     used = (beyond > 0) & (beyond <= REACH) & numpy.isfinite(table["coordination"])
     root = numpy.sqrt(beyond[used])
@@ -52,14 +53,14 @@ def over_seeds(rows):
 
 
 def curve_file(case, seed):
+    """Name of the file with the curves of one run."""
     return "curve-" + "".join(letter if letter.isalnum() else "-" for letter in case.lower()) + f"-{seed}.csv"
 
 
 def keep(table, path):
     """Writes solid_fraction and COLUMNS of a run."""
     names = ("solid_fraction", *COLUMNS)
-    rows = numpy.stack([table[name] for name in names], axis=1)
-    replace_text(path, "\n".join([",".join(names), *(",".join(map(shown, row)) for row in rows.tolist())]) + "\n")
+    write_table(path, names, numpy.stack([table[name] for name in names], axis=1).tolist())
 
 
 def mean_curves(paths):
@@ -77,9 +78,10 @@ def mean_curves(paths):
 
 
 def write_curves(path, curves):
-    lines = [",".join(["case", "solid_fraction", *(f"{name}{end}" for name in COLUMNS for end in ("", "_deviation"))])]
+    """Writes the mean curves of all cases to one csv file: solid_fraction, and each of COLUMNS with its deviation."""
+    rows = []
     for case, columns in curves.items():
         fraction = columns[COLUMNS[0]][0]
-        rows = numpy.stack([fraction, *(values for name in COLUMNS for values in columns[name][1:])], axis=1)
-        lines += [",".join(map(shown, [case, *row])) for row in rows.tolist()]
-    replace_text(path, "\n".join(lines) + "\n")
+        values = numpy.stack([fraction, *(values for name in COLUMNS for values in columns[name][1:])], axis=1)
+        rows += [[case, *row] for row in values.tolist()]
+    write_table(path, ["case", "solid_fraction", *(f"{name}{end}" for name in COLUMNS for end in ("", "_deviation"))], rows)
