@@ -47,8 +47,7 @@ def read_options():
                        help="at which opposite walls approach each other [m/s]; small enough to be quasi-static")
     scene.add_argument("--friction", type=opt.not_negative, default=0.0, metavar="MU", help="of disc and walls")
     scene.add_argument("--angle", type=opt.finite, default=0.0, metavar="RAD", help="rotation of the disc's grid")
-    scene.add_argument("--quick", action="store_true",
-                       help="short: %s unless given" % ", ".join(f"--{k} {v}" for k, v in QUICK.items()))
+    opt.add_quick(scene, "short:", QUICK)
     opt.add_material(parser)
     opt.add_method(parser)
     parser.add_management()

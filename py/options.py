@@ -126,6 +126,12 @@ for _type, _word in ((positive, "number above zero"), (theta, "number"), (not_ne
     _type.__name__ = _word       # argparse says: invalid <name> value
 
 
+def add_quick(group, what, values):
+    """--quick, whose help is `what` and the values, a dict, that Options.set_quick then takes."""
+    words = ", ".join(f"--{name} {value}" for name, value in values.items())
+    group.add_argument("--quick", action="store_true", help=f"{what} {words} unless given")
+
+
 def add_packing(parser, until):
     """The options of a box of discs whose top wall comes down; the group, for more of them."""
     group = parser.add_argument_group("the packing")

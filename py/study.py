@@ -3,18 +3,31 @@
 stopped goes on with the rows that are missing."""
 import dataclasses
 import glob
+import math
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 import typing
 
+from . import options as opt, summary
 from .records import read_rows, shown
 from .runs import Run
 
 POLL_SECONDS = 0.05
+
+
+def read_options(parser, group, quick, what):
+    """The options of a study on the command line: those that the parser and its group hold already, --quick (`quick`,
+    `what`: as of options.add_quick), --at-once and those of every run."""
+    opt.add_quick(group, what, quick)
+    parser.add_management()
+    parser.add_argument("--at-once", type=opt.count, default=min(2, os.cpu_count()), metavar="N",
+                        help="runs at a time, each a process of one thread")
+    options = parser.read()
+    options.set_quick(quick)
+    return options
 
 
 @dataclasses.dataclass
@@ -78,6 +91,22 @@ class Study(Run):
     def rows(self):
         """All rows that are there: dicts, numbers as numbers."""
         return read_rows(self.path(f"{self.name}.csv"))
+
+    def done(self):
+        """The rows of the runs that have a result."""
+        return [row for row in self.rows() if row["status"] == "done"]
+
+    def head(self):
+        """How the summary of every study begins: as that of every run, and how many runs it is made of, what they cost,
+        the rows of those without a result."""
+        rows, done = self.rows(), self.done()
+        return {**summary.head(self), "runs": len(rows), "cpu_s_of_runs": math.fsum(row["cpu_s"] for row in done),
+                "wall_s": self.wall_seconds(), "not_done": [row for row in rows if row["status"] != "done"]}
+
+    def enough_done(self, what, most_failed=0.0):
+        """The check (sentence, holds) that no more than this share of the runs failed; `what` says so in a word."""
+        runs, done = len(self.rows()), len(self.done())
+        return f"{what} runs came to an end ({done} of {runs})", runs - done <= most_failed * runs
 
     def _start(self, job):
         folder = tempfile.mkdtemp(prefix="run-", dir=self.folder)

@@ -41,13 +41,13 @@ def of_packing(folder):
 
 
 class Measured:
-    """The rows of a study by setting: a dict of knobs. A setting of which no run came to an end has None for errors."""
+    """The rows of the runs of a study that have a result, by setting: a dict of knobs. A setting without such a run has None
+    for errors."""
 
     def __init__(self, rows, knobs, finest):
         self._knobs, self._rows = knobs, {}
         for row in rows:
-            if row["status"] == "done":
-                self._rows.setdefault((row["case"], self._name(row)), []).append(row)
+            self._rows.setdefault((row["case"], self._name(row)), []).append(row)
         self._finest = {row["sample"]: row for row in self._of("packing", finest)}
 
     def grain(self, setting):
