@@ -73,11 +73,16 @@ def draw(folders, out):
             if drawn is None:
                 continue
             path = os.path.join(out, f"figure{number}.png")
-            drawn.savefig(path + ".part", format="png")
-            os.replace(path + ".part", path)
-            plt.close(drawn)
+            save(drawn, path)
             written.append(path)
     return written
+
+
+def save(figure, path):
+    """Writes a figure to a png file, in one stroke, and closes it."""
+    figure.savefig(path + ".part", format="png")
+    os.replace(path + ".part", path)
+    plt.close(figure)
 
 
 def draw_picture(folder, path):

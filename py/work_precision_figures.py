@@ -5,7 +5,7 @@ import math
 import matplotlib.pyplot as plt
 from matplotlib.ticker import NullFormatter
 
-from .figures import COLOURS, MARKERS, STYLE
+from .figures import COLOURS, MARKERS, STYLE, save
 from .work_precision import front
 
 FLOOR = 1e-9        # errors below are drawn here
@@ -34,7 +34,7 @@ def _one_grain(measured, methods, path):
         _draw_lines(axis, lines)
         axis.set(xlabel="CPU time of one grain [s]", ylabel=f"{what} [-]")
     _one_legend(figure, axes)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _packings(measured, methods, path):
@@ -48,7 +48,7 @@ def _packings(measured, methods, path):
         _draw_lines(axis, lines)
         axis.set(xlabel="CPU time of a packing [s]", ylabel=what)
     _one_legend(figure, axes)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _knobs(measured, sweeps, base, path):
@@ -67,7 +67,7 @@ def _knobs(measured, sweeps, base, path):
             axis.plot(errors["cpu_s"], max(error(errors)[0], FLOOR), "*", markersize=13, color="0.25", zorder=3,
                       label="1, 0.8 and 0.001")
     _one_legend(figure, axes)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _balance(measured, methods, path):
@@ -79,7 +79,7 @@ def _balance(measured, methods, path):
         _draw_lines(axis, lines)
         axis.set(xlabel="CPU time of a packing [s]", ylabel=what)
     _one_legend(figure, axes)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _presets(candidates, table, path):
@@ -101,7 +101,7 @@ def _presets(candidates, table, path):
     _whole_decades(axis)
     axis.legend(loc="lower left")
     figure.tight_layout()
-    _write(figure, path)
+    save(figure, path)
 
 
 def _force(errors):
@@ -155,8 +155,3 @@ def _whole_decades(axis):
         limit(10 ** math.floor(low), 10 ** math.ceil(high))
     for direction in (axis.xaxis, axis.yaxis):
         direction.set_minor_formatter(NullFormatter())
-
-
-def _write(figure, path):
-    figure.savefig(path)
-    plt.close(figure)
