@@ -47,9 +47,18 @@ def over_seeds(rows):
     for name in OBSERVABLES:
         values = numpy.array([row[name] for row in rows if math.isfinite(row[name])])
         if len(values):
-            error = values.std(ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
-            result[name] = (float(values.mean()), float(error))
+            result[name] = mean_and_error(values)
     return result
+
+
+def mean_and_error(values):
+    """Mean of an array and the standard error of it, nan for a single value."""
+    return float(values.mean()), float(_deviation(values)) / math.sqrt(len(values))
+
+
+def _deviation(values):
+    """Standard deviation over the first axis, nan for a single value."""
+    return values.std(axis=0, ddof=1) if len(values) > 1 else numpy.full(values.shape[1:], math.nan)
 
 
 def curve_file(case, seed):
@@ -72,8 +81,7 @@ def mean_curves(paths):
     result = {}
     for name in COLUMNS:
         values = numpy.array([numpy.interp(fraction, table["solid_fraction"], table[name]) for table in tables])
-        spread = values.std(axis=0, ddof=1) if len(values) > 1 else numpy.full(len(fraction), math.nan)
-        result[name] = (fraction, values.mean(axis=0), spread)
+        result[name] = (fraction, values.mean(axis=0), _deviation(values))
     return result
 
 

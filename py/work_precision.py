@@ -6,6 +6,7 @@ import os
 import numpy
 
 from .records import read_json, read_table, shown
+from .scatter import mean_and_error
 
 OBSERVABLES = ["force_rms_error", "force_worst_error", "area_error", "stress_Pa", "coordination", "log_volume_change",
                "energy_residual_over_work", "deepest_penetration_over_R", "min_J"]
@@ -67,9 +68,7 @@ class Measured:
         errors = {}
         for name, column in (("stress", "stress_Pa"), ("coordination", "coordination"), ("volume", "log_volume_change")):
             scale = 1 if name == "coordination" else abs(numpy.mean([true[column] for _, true in pairs]))
-            difference = numpy.array([row[column] - true[column] for row, true in pairs]) / scale
-            spread = difference.std(ddof=1) / math.sqrt(len(pairs)) if len(pairs) > 1 else math.nan
-            errors[name] = (float(difference.mean()), float(spread))
+            errors[name] = mean_and_error(numpy.array([row[column] - true[column] for row, true in pairs]) / scale)
         return {**errors, **_common([row for row, _ in pairs])}
 
     def _of(self, case, setting):
