@@ -8,7 +8,7 @@ import yade.wrapper as wrapper
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 
-from . import cloud, presets
+from . import cloud, measures, presets
 from .checks import InputError, in_plane, not_negative, number, position, positive, whole
 
 POINTS, SAFETY, TOLERANCE = 276, 0.8, 1e-3      # unless given or chosen by an accuracy
@@ -174,7 +174,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         O.dt = positive("softEngines: dt", dt, "s")
         steppers = []
     if verletDist is None:
-        areas = [body.shape.area() for body in O.bodies if isinstance(body.shape, wrapper.SoftGrain)]
+        areas = [body.shape.area() for body in measures.softBodies()]
         verletDist = VERLET * math.sqrt(min(areas, default=0.0) / math.pi)
     else:
         verletDist = not_negative("softEngines: verletDist", verletDist, "m")

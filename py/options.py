@@ -9,7 +9,7 @@ import sys
 import yade.wrapper as wrapper
 from yade import O
 
-from . import presets
+from . import measures, presets
 from .checks import InputError
 
 # Options that say how a run is managed, not what is computed: they may differ when a run is resumed.
@@ -243,11 +243,8 @@ def choose_method(options, step):
 
 def _explicit_step():
     """About the stable step of the soft grains of the scene, from cell widths and speeds of sound [s]."""
-    least = float("inf")
-    for body in O.bodies:
-        if isinstance(body.shape, wrapper.SoftGrain):
-            least = min(least, 0.6 * body.shape.cellWidth() / math.sqrt(_wave_modulus(body.mat) / body.mat.density))
-    return least
+    return min((0.6 * body.shape.cellWidth() / math.sqrt(_wave_modulus(body.mat) / body.mat.density)
+                for body in measures.softBodies()), default=math.inf)
 
 
 def _wave_modulus(material):

@@ -10,7 +10,7 @@ import math
 import numpy
 from yade import O
 
-from . import jamming
+from . import jamming, measures
 from .stepping import WallForces
 
 OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
@@ -109,7 +109,7 @@ class Press:
         coordination, rattlers, contacts = memory["middle"]["contacts"]
         row = {"time_s": O.time, "strain": math.log(self.box["height"] / mean_height),
                "solid_fraction": mean_area / (width * mean_height),
-               "log_volume_change": math.log(mean_area / memory["area0"]),
+               "log_volume_change": measures.volumeChange(mean_area, memory["area0"]),
                "stress_bottom_Pa": -self.forces.mean("bottom") / width,
                "stress_top_Pa": self.forces.mean("top") / width,
                "coordination": coordination, "rattlers": rattlers, "contacts": contacts, **energies,
