@@ -65,65 +65,34 @@ class Options(argparse.Namespace):
                 setattr(self, name, value)
 
 
-def positive(text):
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} has to be above zero and finite")
-    return value
+def _checked(convert, word, holds, wish):
+    """A type of argparse: the text converted, or one sentence, `TEXT has to WISH`, where the value does not hold."""
+    def check(text):
+        value = convert(text)
+        if not holds(value):
+            raise argparse.ArgumentTypeError(f"{text} has to {wish}")
+        return value
+
+    check.__name__ = word       # argparse says: invalid <name> value
+    return check
 
 
-def not_negative(text):
-    value = float(text)
-    if not 0 <= value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} has to be zero or above, and finite")
-    return value
-
-
-def finite(text):
-    value = float(text)
-    if not abs(value) < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} has to be finite")
-    return value
-
-
-def theta(text):
-    value = float(text)
-    if not 0.5 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{text} has to lie between 0.5 and 1")
-    return value
-
-
-def count(text):
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{text} has to be 1 or more")
-    return value
-
-
-def seed(text):
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"{text} has to be 0 or more")
-    return value
-
-
-def threads(text):
-    value, most = count(text), MOST_THREADS * os.cpu_count()
-    if value > most:
-        raise argparse.ArgumentTypeError(f"{text} has to be {most} or less on this machine of {os.cpu_count()} cores")
-    return value
+positive = _checked(float, "number above zero", lambda value: 0 < value < math.inf, "be above zero and finite")
+not_negative = _checked(float, "number", lambda value: 0 <= value < math.inf, "be zero or above, and finite")
+finite = _checked(float, "number", math.isfinite, "be finite")
+theta = _checked(float, "number", lambda value: 0.5 <= value <= 1, "lie between 0.5 and 1")
+count = _checked(int, "whole number", lambda value: value >= 1, "be 1 or more")
+seed = _checked(int, "whole number", lambda value: value >= 0, "be 0 or more")
+threads = _checked(count, "whole number", lambda value: value <= MOST_THREADS * os.cpu_count(),
+                   f"be {MOST_THREADS * os.cpu_count()} or less on this machine of {os.cpu_count()} cores")
 
 
 def accuracy(text):
+    """A type of argparse: a number, or the name of one, which presets.settings judges."""
     try:
         return float(text)
     except ValueError:
         return text
-
-
-for _type, _word in ((positive, "number above zero"), (theta, "number"), (not_negative, "number"), (finite, "number"),
-                     (count, "whole number"), (threads, "whole number"), (seed, "whole number")):
-    _type.__name__ = _word       # argparse says: invalid <name> value
 
 
 def add_quick(group, what, values):
