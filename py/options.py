@@ -223,6 +223,12 @@ def _wave_modulus(material):
     return 2 * material.c + 4 * material.c2 + 4 * (material.c1 + material.c2)
 
 
+def command_line():
+    """The words by which this process was started: python, yade, options and script of yade, options of the script."""
+    with open("/proc/self/cmdline", "rb") as file:
+        return [os.fsdecode(word) for word in file.read().split(b"\0")[:-1]]
+
+
 def use_threads(wanted):
     """Starts yade anew with -j when the number of threads asked for is not the one that runs: OpenMP and YADE fix it
     when they start. Returns when the numbers agree."""
@@ -233,8 +239,7 @@ def use_threads(wanted):
         raise InputError(f"--threads {wanted} could not be had, yade runs {O.numThreads}: "
                          f"start it with yade -j{wanted}.")
     os.environ[mark] = str(wanted)
-    with open("/proc/self/cmdline", "rb") as file:
-        words = [os.fsdecode(word) for word in file.read().split(b"\0")[:-1]]
+    words = command_line()
     script = words.index(sys.argv[0], 2)
     before, skip = [], False
     for word in words[2:script]:

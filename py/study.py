@@ -110,9 +110,7 @@ class Study(Run):
 
     def _start(self, job):
         folder = tempfile.mkdtemp(prefix="run-", dir=self.folder)
-        with open("/proc/self/cmdline", "rb") as file:
-            yade = [os.fsdecode(word) for word in file.read().split(b"\0")[:2]]
-        command = [*yade, "-n", "-x", "-j1", "--", job.example, *map(str, job.arguments), "--out", folder]
+        command = [*opt.command_line()[:2], "-n", "-x", "-j1", "--", job.example, *map(str, job.arguments), "--out", folder]
         with open(os.path.join(folder, "said.txt"), "w", encoding="utf-8") as said:
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
         return job, process, folder
