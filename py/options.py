@@ -118,6 +118,13 @@ def add_packing(parser, until):
     return group
 
 
+def refuse_nothing_to_press(options):
+    """InputError for an end of the packing that its start is at or beyond."""
+    if options.until <= options.solid_fraction:
+        raise InputError(f"--until {options.until:g} is not above --solid-fraction {options.solid_fraction:g}: "
+                         "give a larger one.")
+
+
 def add_material(parser):
     group = parser.add_argument_group("the material of the grains")
     group.add_argument("--material", choices=("nh", "mr"), default="nh", help="Neo-Hookean or Mooney-Rivlin")
