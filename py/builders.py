@@ -16,7 +16,6 @@ LEAST_POINTS = 16
 MOST_DISCS = 1000000    # of a cloud
 TOUCHING = 1e-9         # distance below which a corner lies on another edge [extent of the polygon]
 VERLET = 0.05       # distance that grains may move until the collider sorts again [radius of the smallest]
-SOFT_MATERIALS = "NeoHookeanMat or a MooneyRivlinMat"
 
 
 def softDisc(center, radius, material=-1, points=None, angle=0.0, color=None, velocity=(0, 0, 0), spin=0.0, accuracy=None,
@@ -125,7 +124,8 @@ def softBox(width, height, material=-1):
     from yade.utils import wall
 
     width, height = positive("softBox: width", width, "m"), positive("softBox: height", height, "m")
-    _frictional_material("softBox", material)
+    if material != -1 or len(O.materials):      # else YADE's default material
+        _material("softBox", material, wrapper.FrictMat, "FrictMat")
     return [wall(0.0, axis=0, sense=1, material=material), wall(width, axis=0, sense=-1, material=material),
             wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
 
@@ -224,7 +224,7 @@ def _body(name, center, shape, material, points, angle, color, velocity, spin, a
     body.shape = _shape(name, dict(shape, points=points))
     if color is not None:
         body.shape.color = _colour(name, color)
-    body.material = _soft_material(name, material)
+    body.material = _material(name, material, wrapper.SoftMat, "NeoHookeanMat or a MooneyRivlinMat")
     state = wrapper.SoftState()
     state.pos = state.refPos = Vector3(*center)
     state.ori = state.refOri = Quaternion(Vector3(0, 0, 1), angle)
@@ -262,29 +262,17 @@ def _colour(name, color):
     return Vector3(red, green, blue)
 
 
-def _soft_material(name, material):
-    found = _material(name, material, SOFT_MATERIALS)
-    if not isinstance(found, wrapper.SoftMat):
-        raise InputError(f"{name}: material is a {type(found).__name__}: give a {SOFT_MATERIALS}.")
-    return found
-
-
-def _frictional_material(name, material):
-    if material == -1 and not len(O.materials):
-        return      # YADE's default material
-    found = _material(name, material, "FrictMat")
-    if not isinstance(found, wrapper.FrictMat):
-        raise InputError(f"{name}: material is a {type(found).__name__}: give a FrictMat.")
-
-
-def _material(name, material, wanted):
-    """The material itself for a number or label in O.materials."""
-    if not isinstance(material, (int, str)) or isinstance(material, bool):
-        return material
-    try:
-        return O.materials[material]
-    except (IndexError, KeyError, RuntimeError, ValueError):
-        raise InputError(f"{name}: material {material!r} is not in O.materials: append a {wanted} first.") from None
+def _material(name, material, kind, wanted):
+    """The material itself, also for a number or label in O.materials; InputError when there is none or it is not of this
+    kind. `wanted` says in messages which classes are."""
+    if isinstance(material, (int, str)) and not isinstance(material, bool):
+        try:
+            material = O.materials[material]
+        except (IndexError, KeyError, RuntimeError, ValueError):
+            raise InputError(f"{name}: material {material!r} is not in O.materials: append a {wanted} first.") from None
+    if not isinstance(material, kind):
+        raise InputError(f"{name}: material is a {type(material).__name__}: give a {wanted}.")
+    return material
 
 
 def _area_and_centroid(plane):
