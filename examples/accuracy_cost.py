@@ -66,6 +66,7 @@ def read_options():
 
 
 def setting(**changes):
+    """BASE with other values of some knobs."""
     return {**BASE, **changes}
 
 
@@ -92,6 +93,7 @@ def lines(quick):
 
 
 def finest(quick):
+    """The setting that packings are compared with."""
     return setting(**{**FINEST, **({"points": 556} if quick else {})})
 
 
@@ -147,6 +149,7 @@ def expected_seconds(case, knobs):
 
 
 def reference(material):
+    """Path of the finite-element forces of nh or mr."""
     return REFERENCE.format(material.upper())
 
 
@@ -204,6 +207,7 @@ def commit():
 
 
 def conclude(study, options):
+    """Table, figures, summary and checks of all rows; the exit code."""
     from softgrain import work_precision_figures as figures
 
     measured = work_precision.Measured(study.done(), KNOBS, finest(options.quick))

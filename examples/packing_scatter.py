@@ -43,10 +43,12 @@ def read_options():
 
 
 def cases(options):
+    """Names of the cases to run."""
     return list(CASES)[:3] if options.quick else list(CASES)
 
 
 def make_job(study, case, seed, options):
+    """The run of one packing."""
     script, words, cost = CASES[case]
     arguments = [*words, "--seed", seed]
     if "--grains" not in words:
@@ -73,6 +75,7 @@ def main():
 
 
 def conclude(study, options):
+    """Means, curves, figures, summary and checks of all rows; the exit code."""
     from softgrain import scatter_figures as figures
 
     means = {case: scatter.over_seeds([row for row in study.done() if row["case"] == shown(case)])

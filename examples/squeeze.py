@@ -80,7 +80,7 @@ def make_scene(options):
 
 
 class Squeeze:
-    """Closes the walls and records."""
+    """Closes the walls and records. `walls`: (body id, axis) by name."""
 
     def __init__(self, run, walls):
         self.run, self.walls, self.options = run, walls, run.options

@@ -112,15 +112,16 @@ def discCloud(width, count, diameters, solidFraction, seed):
 
 
 def widthOfSquareCloud(count, diameters, solidFraction):
-    """Width [m] that makes the box of softCloud about square."""
+    """Width [m] that makes the box of softCloud about square; count, diameters [m] and solidFraction are those of it."""
     a, b = diameters
     mean_area = math.pi / 12 * (a * a + a * b + b * b)
     return math.sqrt(count * mean_area / solidFraction)
 
 
 def softBox(width, height, material=-1):
-    """The four YADE walls around [0, width] x [0, height], all with zero velocity: bodies in the order left, right,
-    bottom, top."""
+    """The four YADE walls around [0, width] x [0, height] [m], all with zero velocity: bodies in the order left, right,
+    bottom, top. The material is a FrictMat, that of YADE by default. Raises InputError, one sentence, on a value that makes
+    no sense."""
     from yade.utils import wall
 
     width, height = positive("softBox: width", width, "m"), positive("softBox: height", height, "m")
@@ -145,6 +146,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     more          engines to append (recorders, PyRunners)
     accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
     integrator    "explicit" or "implicit"; theta, quasistatic: see SoftImplicitIntegrator
+    Raises InputError, one sentence, on a value that makes no sense.
     """
     if integrator not in ("explicit", "implicit"):
         raise InputError(f"softEngines: integrator is {integrator!r}: give 'explicit' or 'implicit'.")
@@ -211,8 +213,10 @@ def _friction(name, coefficient):
 
 
 def _body(name, center, shape, material, points, angle, color, velocity, spin, accuracy):
+    """The body of the arguments of softDisc; `shape`: attributes of SoftGrain, `name`: of the grain in messages."""
     if accuracy is not None:
-        presets.refuse_both(name, accuracy, ["points"] * (points is not None) + ["surfaceSpacing"] * ("surfaceSpacing" in shape))
+        given = ["points"] * (points is not None) + ["surfaceSpacing"] * ("surfaceSpacing" in shape)
+        presets.refuse_both(name, accuracy, given)
         preset = presets.settings(name, accuracy)
         points, shape = preset["points"], dict(shape, surfaceSpacing=preset["surface_spacing"])
     elif points is None:
@@ -247,6 +251,7 @@ def _set_mass(name, body):
 
 
 def _shape(name, attributes):
+    """A SoftGrain, or InputError."""
     try:
         return wrapper.SoftGrain(**attributes)
     except (AttributeError, TypeError) as error:
@@ -255,6 +260,7 @@ def _shape(name, attributes):
 
 
 def _colour(name, color):
+    """Red, green and blue as YADE takes them, or InputError."""
     try:
         red, green, blue = (number(f"{name}: color", part) for part in color)
     except (TypeError, ValueError):

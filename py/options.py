@@ -32,9 +32,11 @@ class Parser(argparse.ArgumentParser):
         self._negative_number_matcher = NEGATIVE_NUMBER
 
     def error(self, message):
+        """What argparse calls with its own sentence: an InputError of it."""
         raise InputError(f"{message}; --help lists the options.")
 
     def add_management(self):
+        """The options of every example: folder, overwriting, resuming, threads, checkpoints."""
         group = self.add_argument_group("the run")
         group.add_argument("--out", default=self.name, metavar="DIR", help="folder for what is computed")
         group.add_argument("--force", action="store_true", help="overwrite a run in that folder")
@@ -126,6 +128,7 @@ def refuse_nothing_to_press(options):
 
 
 def add_material(parser):
+    """The options of which make_material makes a material."""
     group = parser.add_argument_group("the material of the grains")
     group.add_argument("--material", choices=("nh", "mr"), default="nh", help="Neo-Hookean or Mooney-Rivlin")
     group.add_argument("--lambda", type=finite, default=61e6, dest="lambda_", metavar="PA", help="Neo-Hookean, Pa")
@@ -146,6 +149,7 @@ def make_material(options):
 
 
 def add_method(parser):
+    """The options of time integration, resolution and solver."""
     group = parser.add_argument_group("the method")
     group.add_argument("--integrator", choices=("explicit", "implicit", "auto"), default="explicit",
                        help="time integration; auto picks by the speed, and says so")

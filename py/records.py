@@ -9,7 +9,8 @@ class Table:
     """A csv file with fixed columns. Every row is on disk when `append` returns."""
 
     def __init__(self, path, columns, rows=0):
-        """Opens the file and keeps its first `rows` rows; later ones (after a checkpoint) are cut."""
+        """Opens the file and keeps its first `rows` rows; later ones (after a checkpoint) are cut. ValueError when it has
+        fewer."""
         self.columns = columns
         self.rows = rows
         kept = [",".join(columns)]
@@ -19,7 +20,7 @@ class Table:
         self._file = open(path, "a", encoding="ascii")
 
     def append(self, row):
-        """Writes a dict of columns; absent ones become nan."""
+        """Writes a dict of columns; absent ones become nan. KeyError for one that the table does not have."""
         unknown = set(row) - set(self.columns)
         if unknown:
             raise KeyError(f"not columns of the table: {', '.join(sorted(unknown))}")
@@ -28,6 +29,7 @@ class Table:
         self.rows += 1
 
     def close(self):
+        """After the last row."""
         self._file.close()
 
     @staticmethod
@@ -88,11 +90,12 @@ def replace_text(path, text):
 
 
 def write_json(path, content, nan=False):
-    """Writes a dict as json, in one stroke. NaN becomes null, unless `nan` lets Python's own NaN stand."""
+    """Writes a dict to a json file, in one stroke. NaN becomes null, unless `nan` lets Python's own NaN stand."""
     replace_text(path, json.dumps(content if nan else _finite(content), indent=2) + "\n")
 
 
 def read_json(path):
+    """The content of a json file. OSError or ValueError when there is none."""
     with open(path, encoding="utf-8") as file:
         return json.load(file)
 

@@ -17,7 +17,7 @@ OBSERVABLES = ("jamming_fraction", "jamming_strain", "Z0", "k", "exponent", "exp
 
 
 def observables(table):
-    """dict of OBSERVABLES; nan for what a run does not reach."""
+    """The OBSERVABLES of one run from its csv columns, a dict; nan for what it does not reach."""
     point = jamming.jamming_point(table)
     result = dict.fromkeys(OBSERVABLES, math.nan)
     result.update(Z_end=float(table["coordination"][-1]), log_volume_change_end=float(table["log_volume_change"][-1]))

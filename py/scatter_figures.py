@@ -10,8 +10,8 @@ JAMMING_2D = 0.84   # of frictionless discs (O'Hern et al. 2003)
 
 
 def draw(means, curves, path):
-    """Writes figure1.png to figure3.png. means: case -> observable -> (mean, error); curves: case -> column -> (solid
-    fraction, mean, deviation)."""
+    """Writes figure1.png to figure3.png to the paths that the function `path` makes of these. means: case -> observable
+    -> (mean, error), see scatter.over_seeds; curves: case -> column -> (solid fraction, mean, deviation)."""
     with plt.rc_context({**STYLE, "figure.figsize": (7.6, 5.0), "savefig.dpi": 130}):
         _coordination(means, curves, path("figure1.png"))
         _jamming(means, path("figure2.png"))

@@ -49,7 +49,7 @@ class Job:
 
 class Study(Run):
     """A run whose rows are runs. `columns` begins with those of the jobs' keys, and ends with `status`: done, or why a
-    run has no result."""
+    run has no result. Raises InputError as Run does."""
 
     def __init__(self, name, options, columns):
         super().__init__(name, options, columns)
@@ -60,7 +60,8 @@ class Study(Run):
             shutil.rmtree(left)
 
     def compute(self, jobs, at_once):
-        """Runs the jobs that have no row yet, the dearest first."""
+        """Runs the jobs that have no row yet, the dearest first. Raises Interrupted when the study is asked to stop: the
+        runs under way are given up."""
         done = {self._name(row, jobs[0].key) for row in self.rows()}
         waiting = sorted((job for job in jobs if self._name(job.key, job.key) not in done), key=lambda job: job.cost)
         left, running = sum(job.cost for job in waiting), []

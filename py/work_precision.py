@@ -30,7 +30,8 @@ def of_grain(folder, reference):
 
 
 def of_packing(folder):
-    """Observables of a compaction: means over FRACTIONS, the stress also of bottom and top."""
+    """Observables of the compaction in a folder: means over FRACTIONS, which it has to reach; the stress is the mean of
+    bottom and top."""
     table, summary = read_table(os.path.join(folder, "compaction.csv")), _summary(folder)
     at = numpy.linspace(*FRACTIONS, 61)
     table["stress_Pa"] = (table["stress_bottom_Pa"] + table["stress_top_Pa"]) / 2
@@ -42,8 +43,8 @@ def of_packing(folder):
 
 
 class Measured:
-    """The rows of the runs of a study that have a result, by setting: a dict of knobs. A setting without such a run has None
-    for errors."""
+    """The rows of those runs of a study that have a result, by setting: a dict of knobs. A setting without such a run has
+    None for errors."""
 
     def __init__(self, rows, knobs, finest):
         self._knobs, self._rows = knobs, {}

@@ -15,8 +15,14 @@ KNOB_NAMES = {"surface_spacing": "surface spacing / cell width", "safety": "time
 
 
 def draw(measured, methods, sweeps, base, candidates, table, path):
-    """Writes figure1.png to figure5.png. methods, sweeps: name -> (settings on one grain, settings in packings); base: the setting
-    that all sweeps share."""
+    """Writes figure1.png to figure5.png to the paths that the function `path` makes of these.
+
+    measured    work_precision.Measured
+    methods     name -> (settings on one grain, settings in packings), a line each; sweeps: the same of single knobs
+    base        the setting that all sweeps share
+    candidates  (CPU time [s], error [-], ...) of every setting that presets were chosen from
+    table       the content of accuracy.json
+    """
     with plt.rc_context({**STYLE, "figure.figsize": (7.2, 5.0), "savefig.dpi": 130,
                          "figure.constrained_layout.use": False}):
         _one_grain(measured, methods, path("figure1.png"))
