@@ -60,7 +60,7 @@ Bar vibrate(const Material& material, int cells_across_height)
         grain.velocity[2 * i + 1] = -1e-4 * c / radius * contraction * wave_number * X.y() * std::cos(wave_number * X.x());
     }
     grain.refresh();
-    const double dt = 0.5 * critical_step(grain, unit_critical_step(grain));
+    const double dt = step_of(grain, 0.5);
     std::vector<double> zeros;
     double before = 0;
     while (zeros.size() < 11) {

@@ -45,7 +45,7 @@ Ride ride(const Incline& c)
     const Grain<2>& grain = world.add(make_grain(c.mesh, { "Neo-Hookean", { modulus, modulus } }, start, c.radius, density));
     world.planes = { { 1, 1, 0, 0 } };
     world.friction = friction;
-    const double dt = 0.5 * critical_step(grain, unit_critical_step(grain));
+    const double dt = step_of(grain, 0.5);
     const auto smooth = [](double t) { return t <= 0 ? 0 : t >= 1 ? 1 : t * t * t * (10 + t * (6 * t - 15)); };
     const auto step = [&] {
         const double t = world.time / unit, tilt = angle * smooth((t - c.ramp) / c.tilt);

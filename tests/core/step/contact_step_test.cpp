@@ -31,7 +31,7 @@ struct Collision {
     double momentum, angular, energy, dissipated; ///< changes, relative
     explicit Collision(World& world, double share, double duration = 4e-4)
     {
-        const double dt = share * critical_step(world.grains[0], unit_critical_step(world.grains[0]));
+        const double dt = step_of(world.grains[0], share);
         const Sums before(world);
         world.step(dt);
         const double first = world.energy();

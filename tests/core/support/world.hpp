@@ -8,6 +8,12 @@
 
 namespace softgrain::testing_support {
 
+/// This share of the critical step of a grain as it is [s].
+inline double step_of(const Grain<2>& grain, double share)
+{
+    return share * critical_step(grain, unit_critical_step(grain));
+}
+
 class World : public Scene {
 public:
     NonlinearGaussSeidel<2> solver { 1e-6, 1000 };
