@@ -147,10 +147,7 @@ TEST(Conservation, AnElasticBarReboundsFromAWall)
     const double mass = density * length * height, wave_force = density * c * speed * height;
     double before = 0;
     for (int across : { 4, 8 }) {
-        Resolution resolution;
-        resolution.points = 40 * across * across;
-        const auto mesh
-            = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(length, height)), resolution);
+        const auto mesh = mesh_of(PolygonOutline(rectangle_vertices(length, height)), 40 * across * across);
         World world;
         GrainStart start;
         start.centre = Vec<2>(length / 2 + 0.1 * speed * passage, 0);

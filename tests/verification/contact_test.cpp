@@ -260,9 +260,7 @@ void print(const char* name, const Rest& rest, double weight)
 TEST(Stack, OfBlocksCarriesTheWeightAboveEachContact)
 {
     const double modulus = 300 * density * gravity * radius;
-    Resolution resolution;
-    resolution.points = 64;
-    const auto mesh = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(1, 1)), resolution);
+    const auto mesh = mesh_of(PolygonOutline(rectangle_vertices(1, 1)), 64);
     for (double tolerance : { 1e-3, 1e-6, 1e-10 }) {
         World world;
         world.friction = 0.5;

@@ -14,7 +14,7 @@ constexpr double friction = 0.3;
 
 /// Lengths in radii R, times in sqrt(R / g).
 struct Incline {
-    std::shared_ptr<const Discretisation<2>> mesh;
+    Mesh mesh;
     double height = 0;         ///< of the centre over the plane
     double tangent = 0;        ///< of the angle of the incline
     double stiffness = 100;    ///< shear modulus over density x g x R; Lame's first constant is as large
@@ -86,10 +86,8 @@ Ride ride(const Incline& c)
 
 Incline block(double tangent)
 {
-    Resolution resolution;
-    resolution.points = 256;
     Incline c;
-    c.mesh = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(1, 1)), resolution);
+    c.mesh = mesh_of(PolygonOutline(rectangle_vertices(1, 1)), 256);
     c.height = std::sqrt(M_PI) / 2;
     c.tangent = tangent;
     return c;

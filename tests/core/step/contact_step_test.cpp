@@ -104,14 +104,10 @@ TEST(Collision, BalancesItsEnergy)
 void add_crowd(World& world, int across, int points, double spacing, bool shapes_too)
 {
     const auto disc = disc_mesh(points);
-    std::vector<std::shared_ptr<const Discretisation<2>>> others;
+    std::vector<Mesh> others;
     if (shapes_too)
-        for (const auto& shape : shapes()) {
-            Resolution resolution;
-            resolution.points = points;
-            if (shape.name == "hexagon" || shape.name == "ellipse")
-                others.push_back(std::make_shared<Discretisation<2>>(*shape.outline, resolution));
-        }
+        for (const auto& shape : shapes())
+            if (shape.name == "hexagon" || shape.name == "ellipse") others.push_back(mesh_of(*shape.outline, points));
     Random random(5);
     for (int i = 0; i < across; ++i)
         for (int j = 0; j < across; ++j) {
