@@ -81,7 +81,7 @@ Impact collide(int points, double share)
     const double closing = approach(), first = world.grains[0].motion.kinetic + world.grains[1].motion.kinetic;
     while (world.time < 4) {
         world.step(dt);
-        const double total = world.energy(), lost = world.balance.contact_dissipation + world.balance.friction;
+        const double total = world.energy(), lost = world.lost();
         const double kinetic = (world.grains[0].motion.kinetic + world.grains[1].motion.kinetic) / first;
         const Sums now(world);
         result.momentum = std::max(result.momentum, (now.momentum - before.momentum).norm() / before.size);

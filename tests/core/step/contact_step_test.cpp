@@ -43,9 +43,8 @@ struct Collision {
         const Sums after(world);
         momentum = (after.momentum - before.momentum).norm() / before.size;
         angular = (after.angular - before.angular) / (before.size * 1e-3);
-        const double lost = world.balance.contact_dissipation + world.balance.friction;
-        energy = (world.energy() + lost) / first - 1;
-        dissipated = lost / first;
+        energy = (world.energy() + world.lost()) / first - 1;
+        dissipated = world.lost() / first;
     }
 };
 
@@ -218,7 +217,7 @@ TEST(Compaction, TwelveDiscsStayWhole)
             renew();
         }
     }
-    const double total = world.energy() + world.balance.contact_dissipation + world.balance.friction;
+    const double total = world.energy() + world.lost();
     EXPECT_GT(min_J, 0.5);
     EXPECT_GE(deepest, -5e-3 * 1.15e-3);
     EXPECT_NEAR(total / world.balance.external_work, 1, 5e-3);

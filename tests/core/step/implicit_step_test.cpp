@@ -63,11 +63,7 @@ struct Press {
         while (discs.solid_fraction() < until)
             world.step(dt);
     }
-    double residual()
-    {
-        const double total = world.energy() + world.balance.contact_dissipation + world.balance.friction;
-        return (total + world.dissipated) / world.balance.external_work - 1;
-    }
+    double residual() { return (world.energy() + world.lost() + world.dissipated) / world.balance.external_work - 1; }
     double stress() const { return world.plane_force[3].y() / discs.width; }
 };
 

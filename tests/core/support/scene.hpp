@@ -34,6 +34,8 @@ public:
         grains.back().id = int(grains.size()) - 1;
         return grains.back();
     }
+    /// Dissipated at contacts since the start [J/m].
+    double lost() const { return balance.contact_dissipation + balance.friction; }
 
 protected:
     std::optional<Assembly<2>> assembly_;
