@@ -22,11 +22,10 @@ import os
 import subprocess
 import sys
 
-from softgrain import *
-from softgrain import options as opt, presets, runs, summary, work_precision
+from softgrain import options as opt, presets, runs, work_precision
 from softgrain.checks import InputError
 from softgrain.records import write_json
-from softgrain.study import Job, Study
+from softgrain.study import Job, Study, read_options as read_study
 
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
 REFERENCE = os.path.join(os.path.dirname(HERE), "tests", "verification", "reference", "A_plates_{}.csv")
@@ -63,17 +62,11 @@ def read_options():
     scene.add_argument("--seeds", type=opt.count, default=4, metavar="N", help="packings of each setting")
     scene.add_argument("--orientations", type=opt.count, default=3, metavar="N",
                        help="orientations of the grid of one grain of each setting")
-    scene.add_argument("--quick", action="store_true",
-                       help="a small study: few points, %s unless given" % ", ".join(f"--{k} {v}" for k, v in QUICK.items()))
-    parser.add_management()
-    parser.add_argument("--at-once", type=opt.count, default=min(2, os.cpu_count()), metavar="N",
-                        help="runs at a time, each a process of one thread")
-    options = parser.read()
-    options.set_quick(QUICK)
-    return options
+    return read_study(parser, scene, QUICK, "a small study: few points,")
 
 
 def setting(**changes):
+    """BASE with other values of some knobs."""
     return {**BASE, **changes}
 
 
@@ -100,6 +93,7 @@ def lines(quick):
 
 
 def finest(quick):
+    """The setting that packings are compared with."""
     return setting(**{**FINEST, **({"points": 556} if quick else {})})
 
 
@@ -155,6 +149,7 @@ def expected_seconds(case, knobs):
 
 
 def reference(material):
+    """Path of the finite-element forces of nh or mr."""
     return REFERENCE.format(material.upper())
 
 
@@ -190,9 +185,10 @@ def table_of_presets(study, options, measured):
     return {"date": datetime.date.today().isoformat(), "commit": study.memory["commit"],
             "command": f"yade -n -x examples/accuracy_cost.py --grains {options.grains} --seeds {options.seeds} "
                        f"--orientations {options.orientations}" + (" --quick" if options.quick else ""),
-            "error": f"{MARGIN:g} times the largest relative error of the force between plates at 5 to 40 % squeeze against "
-                     "finite elements, Neo-Hookean and Mooney-Rivlin, over the orientations of the grid; or what the stress of packings "
-                     "lacks against their finest runs, less twice its standard error, where that is more",
+            "error": f"{MARGIN:g} times the largest relative error of the force between plates at 5 to 40 % squeeze "
+                     "against finite elements, Neo-Hookean and Mooney-Rivlin, over the orientations of the grid; or what "
+                     "the stress of packings lacks against their finest runs, less twice its standard error, where that is "
+                     "more",
             "names": PRESETS, "settings": kept}, candidates
 
 
@@ -211,25 +207,20 @@ def commit():
 
 
 def conclude(study, options):
+    """Table, figures, summary and checks of all rows; the exit code."""
     from softgrain import work_precision_figures as figures
 
-    rows = study.rows()
-    measured = work_precision.Measured(rows, KNOBS, finest(options.quick))
+    measured = work_precision.Measured(study.done(), KNOBS, finest(options.quick))
     drawn = {name: (grain, packing) for name, (grain, packing, _) in lines(options.quick).items()}
     table, candidates = table_of_presets(study, options, measured)
     write_json(study.path("accuracy.json"), table)
     figures.draw(measured, {name: drawn[name] for name in METHODS}, {name: drawn[name] for name in SWEEPS},
                  BASE, candidates, table, study.path)
-    failed = [row for row in rows if row["status"] != "done"]
-    result = summary.head(study)
-    result.update(runs=len(rows), cpu_s_of_runs=math.fsum(row["cpu_s"] for row in rows if row not in failed),
-                  wall_s=study.wall_seconds(), not_done=failed,
-                  errors={name: {"grain": [measured.grain(knobs) for knobs in grain],
-                                 "packing": [measured.packing(knobs) for knobs in packing]}
-                          for name, (grain, packing) in drawn.items()})
+    errors = {name: {"grain": [measured.grain(knobs) for knobs in grain],
+                     "packing": [measured.packing(knobs) for knobs in packing]} for name, (grain, packing) in drawn.items()}
     best = min(chosen["error"] for chosen in table["settings"])
-    return runs.conclude(study, result, [
-        (f"19 of 20 runs came to an end ({len(rows) - len(failed)} of {len(rows)})", len(failed) <= 0.05 * len(rows)),
+    return runs.conclude(study, {**study.head(), "errors": errors}, [
+        study.enough_done("19 of 20", 0.05),
         (f"the finest of all settings is within 3 % of finite elements ({best:.2%})", best < 0.03)])
 
 

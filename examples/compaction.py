@@ -23,7 +23,6 @@ import math
 
 from softgrain import *
 from softgrain import builders, options as opt, runs, summary
-from softgrain.checks import InputError
 from softgrain.packings import SoftPacking
 from softgrain.press import Press, columns_of, implicit_step
 from yade import O
@@ -41,9 +40,7 @@ def read_options():
     options.set_quick(QUICK)
     opt.choose_by_accuracy(options)
     opt.refuse_what_is_not_there(options)
-    if options.until <= options.solid_fraction:
-        raise InputError(f"--until {options.until:g} is not above --solid-fraction {options.solid_fraction:g}: "
-                         "give a larger one.")
+    opt.refuse_nothing_to_press(options)
     return options
 
 

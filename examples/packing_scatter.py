@@ -12,12 +12,9 @@ solid fraction; figure1.png to figure3.png and summary.json into --out. --resume
 import os
 import sys
 
-import numpy
-
-from softgrain import *
-from softgrain import jamming, options as opt, runs, scatter, summary
-from softgrain.records import read_json, read_table
-from softgrain.study import Job, Study
+from softgrain import jamming, options as opt, runs, scatter
+from softgrain.records import read_json, read_table, shown
+from softgrain.study import Job, Study, read_options as read_study
 
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
 SOFT, RIGID = "compaction.py", "rigid_compaction.py"
@@ -42,21 +39,16 @@ def read_options():
     scene = parser.add_argument_group("the study")
     scene.add_argument("--seeds", type=opt.count, default=5, metavar="N", help="packings of each case")
     scene.add_argument("--grains", type=opt.count, default=300, metavar="N", help="where a case does not say")
-    scene.add_argument("--quick", action="store_true",
-                       help="the first three cases only, %s unless given" % ", ".join(f"--{k} {v}" for k, v in QUICK.items()))
-    parser.add_management()
-    parser.add_argument("--at-once", type=opt.count, default=min(2, os.cpu_count()), metavar="N",
-                        help="runs at a time, each a process of one thread")
-    options = parser.read()
-    options.set_quick(QUICK)
-    return options
+    return read_study(parser, scene, QUICK, "the first three cases only,")
 
 
 def cases(options):
+    """Names of the cases to run."""
     return list(CASES)[:3] if options.quick else list(CASES)
 
 
 def make_job(study, case, seed, options):
+    """The run of one packing."""
     script, words, cost = CASES[case]
     arguments = [*words, "--seed", seed]
     if "--grains" not in words:
@@ -70,7 +62,7 @@ def make_job(study, case, seed, options):
         scatter.keep(table, study.path(scatter.curve_file(case, seed)))
         return {**scatter.observables(table), "cpu_s": read_json(os.path.join(folder, "summary.json"))["cost"]["cpu_s"]}
 
-    return Job({"case": case.replace(",", ";"), "seed": seed}, os.path.join(HERE, script), arguments, read, cost)
+    return Job({"case": case, "seed": seed}, os.path.join(HERE, script), arguments, read, cost)
 
 
 def main():
@@ -83,23 +75,19 @@ def main():
 
 
 def conclude(study, options):
+    """Means, curves, figures, summary and checks of all rows; the exit code."""
     from softgrain import scatter_figures as figures
 
-    rows = study.rows()
-    done = [row for row in rows if row["status"] == "done"]
-    means = {case: scatter.over_seeds([row for row in done if row["case"] == case.replace(",", ";")])
+    means = {case: scatter.over_seeds([row for row in study.done() if row["case"] == shown(case)])
              for case in cases(options)}
     curves = {case: scatter.mean_curves([study.path(scatter.curve_file(case, seed))
                                          for seed in range(1, options.seeds + 1)]) for case in cases(options)}
     scatter.write_curves(study.path("curves.csv"), curves)
     figures.draw(means, curves, study.path)
-    result = summary.head(study)
-    result.update(runs=len(rows), cpu_s_of_runs=float(numpy.sum([row["cpu_s"] for row in done])),
-                  wall_s=study.wall_seconds(), not_done=[row for row in rows if row not in done], means=means,
-                  criterion=jamming.CRITERION)
     for case, values in means.items():
         print(f"{case:28s}" + "   ".join(f"{name} {mean:.3f} +- {error:.3f}" for name, (mean, error) in values.items()))
-    return runs.conclude(study, result, [(f"all runs came to an end ({len(done)} of {len(rows)})", len(done) == len(rows))])
+    return runs.conclude(study, {**study.head(), "means": means, "criterion": jamming.CRITERION},
+                         [study.enough_done("all")])
 
 
 runs.main(main)

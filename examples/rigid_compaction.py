@@ -44,9 +44,7 @@ def read_options():
     parser.add_management()
     options = parser.read()
     options.set_quick(QUICK)
-    if options.until <= options.solid_fraction:
-        raise InputError(f"--until {options.until:g} is not above --solid-fraction {options.solid_fraction:g}: "
-                         "give a larger one.")
+    opt.refuse_nothing_to_press(options)
     if options.damping >= 1:
         raise InputError(f"--damping {options.damping:g} is not below 1: 0.2 is sound.")
     return options

@@ -47,8 +47,7 @@ def read_options():
                        help="at which opposite walls approach each other [m/s]; small enough to be quasi-static")
     scene.add_argument("--friction", type=opt.not_negative, default=0.0, metavar="MU", help="of disc and walls")
     scene.add_argument("--angle", type=opt.finite, default=0.0, metavar="RAD", help="rotation of the disc's grid")
-    scene.add_argument("--quick", action="store_true",
-                       help="short: %s unless given" % ", ".join(f"--{k} {v}" for k, v in QUICK.items()))
+    opt.add_quick(scene, "short:", QUICK)
     opt.add_material(parser)
     opt.add_method(parser)
     parser.add_management()
@@ -81,22 +80,20 @@ def make_scene(options):
 
 
 class Squeeze:
-    """Closes the walls and records."""
+    """Closes the walls and records. `walls`: (body id, axis) by name."""
 
     def __init__(self, run, walls):
         self.run, self.walls, self.options = run, walls, run.options
         self.disc = measures.softBodies()[0]
         self.soft = measures.softIntegrator()
         self.memory = run.memory
-        self.forces = WallForces(walls, run.interrupted, run.memory["longest_step"])
+        self.forces = WallForces(walls, run, run.memory["longest_step"])
         if not run.resumed:
-            self.forces.first_step(run)
+            self.forces.first_step()
             self.forces.require_steps(2 * self.options.radius * OUTPUT / self.options.speed, self.options.speed)
             run.begin()
             self.memory.update(window=0, middle=None, steps=1, deepest=0.0)
             self.forces.reset()
-        else:
-            self.forces.restore(self.memory["forces"])
 
     def go(self):
         memory, run = self.memory, self.run
@@ -108,23 +105,21 @@ class Squeeze:
                 run.checkpoint_if_due()
 
     def _one_window(self):
-        memory = self.memory
-        begin, end = self._end_of(memory["window"] - 1), self._end_of(memory["window"])
-        if memory["middle"] is None and self._advance((begin + end) / 2):
-            memory["middle"] = self._instant()
-        if memory["middle"] is None or not self._advance(end):
-            memory["forces"] = self.forces.state()
-            self.run.stop()
+        window = self.memory["window"]
+        self.forces.through_window(self._time_of(window - 1), self._time_of(window), self._instant)
         self._record()
+        self.forces.remember()
 
     def _end_of(self, window):
         """Squeeze at the end of a window: rows lie at whole multiples of OUTPUT, the first at a quarter of it."""
         return max(window + 0.5, 0) * OUTPUT
 
-    def _advance(self, squeeze):
-        return self.forces.advance(2 * self.options.radius * squeeze / self.options.speed)
+    def _time_of(self, window):
+        """When a window ends [s]."""
+        return 2 * self.options.radius * self._end_of(window) / self.options.speed
 
     def _squeeze(self):
+        """Now, by the places of the walls."""
         low, high = (O.bodies[self.walls[name][0]].state.pos[1] for name in ("bottom", "top"))
         return 1 - (high - low) / (2 * self.options.radius)
 
@@ -149,7 +144,6 @@ class Squeeze:
         memory.update(window=memory["window"] + 1, middle=None, steps=memory["steps"] + forces.steps,
                       deepest=max(memory["deepest"], self.soft.maxPenetration()))
         forces.reset()
-        memory["forces"] = forces.state()
 
     def balance(self):
         """Energy that is missing, over the work of the walls."""

@@ -9,7 +9,7 @@ _guard.check()
 from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
 import yade.wrapper  # noqa: E402
 
-from . import arrays, builders, fclib, measures  # noqa: E402
+from . import arrays, fclib, measures  # noqa: E402
 from .builders import discCloud, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
 from .checks import InputError  # noqa: E402
 

@@ -8,7 +8,7 @@ import yade.wrapper as wrapper
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 
-from . import cloud, presets
+from . import cloud, measures, presets
 from .checks import InputError, in_plane, not_negative, number, position, positive, whole
 
 POINTS, SAFETY, TOLERANCE = 276, 0.8, 1e-3      # unless given or chosen by an accuracy
@@ -16,7 +16,6 @@ LEAST_POINTS = 16
 MOST_DISCS = 1000000    # of a cloud
 TOUCHING = 1e-9         # distance below which a corner lies on another edge [extent of the polygon]
 VERLET = 0.05       # distance that grains may move until the collider sorts again [radius of the smallest]
-SOFT_MATERIALS = "NeoHookeanMat or a MooneyRivlinMat"
 
 
 def softDisc(center, radius, material=-1, points=None, angle=0.0, color=None, velocity=(0, 0, 0), spin=0.0, accuracy=None,
@@ -113,19 +112,21 @@ def discCloud(width, count, diameters, solidFraction, seed):
 
 
 def widthOfSquareCloud(count, diameters, solidFraction):
-    """Width [m] that makes the box of softCloud about square."""
+    """Width [m] that makes the box of softCloud about square; count, diameters [m] and solidFraction are those of it."""
     a, b = diameters
     mean_area = math.pi / 12 * (a * a + a * b + b * b)
     return math.sqrt(count * mean_area / solidFraction)
 
 
 def softBox(width, height, material=-1):
-    """The four YADE walls around [0, width] x [0, height], all with zero velocity: bodies in the order left, right,
-    bottom, top."""
+    """The four YADE walls around [0, width] x [0, height] [m], all with zero velocity: bodies in the order left, right,
+    bottom, top. The material is a FrictMat, that of YADE by default. Raises InputError, one sentence, on a value that makes
+    no sense."""
     from yade.utils import wall
 
     width, height = positive("softBox: width", width, "m"), positive("softBox: height", height, "m")
-    _frictional_material("softBox", material)
+    if material != -1 or len(O.materials):      # else YADE's default material
+        _material("softBox", material, wrapper.FrictMat, "FrictMat")
     return [wall(0.0, axis=0, sense=1, material=material), wall(width, axis=0, sense=-1, material=material),
             wall(0.0, axis=1, sense=1, material=material), wall(height, axis=1, sense=-1, material=material)]
 
@@ -145,6 +146,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     more          engines to append (recorders, PyRunners)
     accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
     integrator    "explicit" or "implicit"; theta, quasistatic: see SoftImplicitIntegrator
+    Raises InputError, one sentence, on a value that makes no sense.
     """
     if integrator not in ("explicit", "implicit"):
         raise InputError(f"softEngines: integrator is {integrator!r}: give 'explicit' or 'implicit'.")
@@ -174,7 +176,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         O.dt = positive("softEngines: dt", dt, "s")
         steppers = []
     if verletDist is None:
-        areas = [body.shape.area() for body in O.bodies if isinstance(body.shape, wrapper.SoftGrain)]
+        areas = [body.shape.area() for body in measures.softBodies()]
         verletDist = VERLET * math.sqrt(min(areas, default=0.0) / math.pi)
     else:
         verletDist = not_negative("softEngines: verletDist", verletDist, "m")
@@ -213,8 +215,10 @@ def _friction(name, coefficient):
 
 
 def _body(name, center, shape, material, points, angle, color, velocity, spin, accuracy):
+    """The body of the arguments of softDisc; `shape`: attributes of SoftGrain, `name`: of the grain in messages."""
     if accuracy is not None:
-        presets.refuse_both(name, accuracy, ["points"] * (points is not None) + ["surfaceSpacing"] * ("surfaceSpacing" in shape))
+        given = ["points"] * (points is not None) + ["surfaceSpacing"] * ("surfaceSpacing" in shape)
+        presets.refuse_both(name, accuracy, given)
         preset = presets.settings(name, accuracy)
         points, shape = preset["points"], dict(shape, surfaceSpacing=preset["surface_spacing"])
     elif points is None:
@@ -226,7 +230,7 @@ def _body(name, center, shape, material, points, angle, color, velocity, spin, a
     body.shape = _shape(name, dict(shape, points=points))
     if color is not None:
         body.shape.color = _colour(name, color)
-    body.material = _soft_material(name, material)
+    body.material = _material(name, material, wrapper.SoftMat, "NeoHookeanMat or a MooneyRivlinMat")
     state = wrapper.SoftState()
     state.pos = state.refPos = Vector3(*center)
     state.ori = state.refOri = Quaternion(Vector3(0, 0, 1), angle)
@@ -249,6 +253,7 @@ def _set_mass(name, body):
 
 
 def _shape(name, attributes):
+    """A SoftGrain, or InputError."""
     try:
         return wrapper.SoftGrain(**attributes)
     except (AttributeError, TypeError) as error:
@@ -257,6 +262,7 @@ def _shape(name, attributes):
 
 
 def _colour(name, color):
+    """Red, green and blue as YADE takes them, or InputError."""
     try:
         red, green, blue = (number(f"{name}: color", part) for part in color)
     except (TypeError, ValueError):
@@ -264,29 +270,17 @@ def _colour(name, color):
     return Vector3(red, green, blue)
 
 
-def _soft_material(name, material):
-    found = _material(name, material, SOFT_MATERIALS)
-    if not isinstance(found, wrapper.SoftMat):
-        raise InputError(f"{name}: material is a {type(found).__name__}: give a {SOFT_MATERIALS}.")
-    return found
-
-
-def _frictional_material(name, material):
-    if material == -1 and not len(O.materials):
-        return      # YADE's default material
-    found = _material(name, material, "FrictMat")
-    if not isinstance(found, wrapper.FrictMat):
-        raise InputError(f"{name}: material is a {type(found).__name__}: give a FrictMat.")
-
-
-def _material(name, material, wanted):
-    """The material itself for a number or label in O.materials."""
-    if not isinstance(material, (int, str)) or isinstance(material, bool):
-        return material
-    try:
-        return O.materials[material]
-    except (IndexError, KeyError, RuntimeError, ValueError):
-        raise InputError(f"{name}: material {material!r} is not in O.materials: append a {wanted} first.") from None
+def _material(name, material, kind, wanted):
+    """The material itself, also for a number or label in O.materials; InputError when there is none or it is not of this
+    kind. `wanted` says in messages which classes are."""
+    if isinstance(material, (int, str)) and not isinstance(material, bool):
+        try:
+            material = O.materials[material]
+        except (IndexError, KeyError, RuntimeError, ValueError):
+            raise InputError(f"{name}: material {material!r} is not in O.materials: append a {wanted} first.") from None
+    if not isinstance(material, kind):
+        raise InputError(f"{name}: material is a {type(material).__name__}: give a {wanted}.")
+    return material
 
 
 def _area_and_centroid(plane):

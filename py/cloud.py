@@ -49,14 +49,6 @@ def scatter(width, height, radii, generator):
                      f"{fraction:.3f} in a box {width:g} m wide: ask for a smaller solid fraction or another width.")
 
 
-def least_gap(width, height, radii, places):
-    """Smallest gap [m] between any two discs, or twice that between a disc and the box; negative: overlap."""
-    first, second = _near_pairs(places, radii, 0.5 * radii.mean())
-    apart = numpy.hypot(*(places[second] - places[first]).T) - radii[first] - radii[second]
-    margin = numpy.minimum(places - radii[:, None], numpy.array([width, height]) - places - radii[:, None])
-    return min(apart.min(initial=numpy.inf), 2 * margin.min())
-
-
 def _gap_for(radii, width, height):
     """Gap [m] by which all discs can be kept apart until their grown outlines fill EVEN_FRACTION of the box."""
     # sum pi (r + g/2)^2 = EVEN_FRACTION w h, solved for g

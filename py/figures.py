@@ -5,7 +5,6 @@ Needs numpy and matplotlib, not YADE: python3 figures.py DIR [DIR ...] [--out DI
 together; figure 1 is of the first. Inside the package: softgrain.figures.draw(folders, out)."""
 import argparse
 import io
-import json
 import os
 import sys
 
@@ -18,11 +17,11 @@ import numpy  # noqa: E402
 if __package__:
     from . import jamming
     from .figure1 import draw_snapshots
-    from .records import read_table
+    from .records import read_json, read_table
 else:
     import jamming
     from figure1 import draw_snapshots
-    from records import read_table
+    from records import read_json, read_table
 
 # Okabe and Ito's colours, told apart by colour-blind readers; each curve has its own dash and marker too
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -73,11 +72,16 @@ def draw(folders, out):
             if drawn is None:
                 continue
             path = os.path.join(out, f"figure{number}.png")
-            drawn.savefig(path + ".part", format="png")
-            os.replace(path + ".part", path)
-            plt.close(drawn)
+            save(drawn, path)
             written.append(path)
     return written
+
+
+def save(figure, path):
+    """Writes a figure to a png file, in one stroke, and closes it."""
+    figure.savefig(path + ".part", format="png")
+    os.replace(path + ".part", path)
+    plt.close(figure)
 
 
 def draw_picture(folder, path):
@@ -203,8 +207,7 @@ def _tell_apart(curves):
 def _parameters(folder):
     for name in ("summary.json", "checkpoint.json"):
         try:
-            with open(os.path.join(folder, name), encoding="utf-8") as file:
-                return json.load(file).get("parameters", {})
+            return read_json(os.path.join(folder, name)).get("parameters", {})
         except (OSError, ValueError):
             continue
     return {}

@@ -33,7 +33,7 @@ def pointTotal():
 
 
 def solidFraction(boxArea):
-    """Sum of the current areas of the grains over the area [m²] of the box [-]."""
+    """Sum of the current areas of the grains over the area [m²] of the box [-]. InputError without a SoftIntegrator."""
     return softIntegrator().solidArea() / boxArea
 
 
@@ -49,7 +49,8 @@ def wallStress(wall, axis, length):
 
 
 def contactPairs():
-    """Pairs (id1, id2) of bodies with a force between them in the last step, each once."""
+    """Pairs (id1, id2) of bodies with a force between them in the last step, each once. InputError without a
+    SoftIntegrator."""
     return [(contact[0], contact[1]) for contact in softIntegrator().contacts()]
 
 
@@ -123,6 +124,7 @@ def contactHalfWidth(outline, axis, wall, tolerance):
 
 
 def _outermost(outline, axis, sign):
+    """Largest coordinate along sign * axis, at the top of the parabola through three points [m]."""
     out, along = sign * outline[:, axis], outline[:, 1 - axis]
     top = int(numpy.argmax(out))
     three = [top - 1, top, (top + 1) % len(out)]

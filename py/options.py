@@ -9,7 +9,7 @@ import sys
 import yade.wrapper as wrapper
 from yade import O
 
-from . import presets
+from . import measures, presets
 from .checks import InputError
 
 # Options that say how a run is managed, not what is computed: they may differ when a run is resumed.
@@ -32,9 +32,11 @@ class Parser(argparse.ArgumentParser):
         self._negative_number_matcher = NEGATIVE_NUMBER
 
     def error(self, message):
+        """What argparse calls with its own sentence: an InputError of it."""
         raise InputError(f"{message}; --help lists the options.")
 
     def add_management(self):
+        """The options of every example: folder, overwriting, resuming, threads, checkpoints."""
         group = self.add_argument_group("the run")
         group.add_argument("--out", default=self.name, metavar="DIR", help="folder for what is computed")
         group.add_argument("--force", action="store_true", help="overwrite a run in that folder")
@@ -65,65 +67,40 @@ class Options(argparse.Namespace):
                 setattr(self, name, value)
 
 
-def positive(text):
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} has to be above zero and finite")
-    return value
+def _checked(convert, word, holds, wish):
+    """A type of argparse: the text converted, or one sentence, `TEXT has to WISH`, where the value does not hold."""
+    def check(text):
+        value = convert(text)
+        if not holds(value):
+            raise argparse.ArgumentTypeError(f"{text} has to {wish}")
+        return value
+
+    check.__name__ = word       # argparse says: invalid <name> value
+    return check
 
 
-def not_negative(text):
-    value = float(text)
-    if not 0 <= value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} has to be zero or above, and finite")
-    return value
-
-
-def finite(text):
-    value = float(text)
-    if not abs(value) < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} has to be finite")
-    return value
-
-
-def theta(text):
-    value = float(text)
-    if not 0.5 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{text} has to lie between 0.5 and 1")
-    return value
-
-
-def count(text):
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{text} has to be 1 or more")
-    return value
-
-
-def seed(text):
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"{text} has to be 0 or more")
-    return value
-
-
-def threads(text):
-    value, most = count(text), MOST_THREADS * os.cpu_count()
-    if value > most:
-        raise argparse.ArgumentTypeError(f"{text} has to be {most} or less on this machine of {os.cpu_count()} cores")
-    return value
+positive = _checked(float, "number above zero", lambda value: 0 < value < math.inf, "be above zero and finite")
+not_negative = _checked(float, "number", lambda value: 0 <= value < math.inf, "be zero or above, and finite")
+finite = _checked(float, "number", math.isfinite, "be finite")
+theta = _checked(float, "number", lambda value: 0.5 <= value <= 1, "lie between 0.5 and 1")
+count = _checked(int, "whole number", lambda value: value >= 1, "be 1 or more")
+seed = _checked(int, "whole number", lambda value: value >= 0, "be 0 or more")
+threads = _checked(count, "whole number", lambda value: value <= MOST_THREADS * os.cpu_count(),
+                   f"be {MOST_THREADS * os.cpu_count()} or less on this machine of {os.cpu_count()} cores")
 
 
 def accuracy(text):
+    """A type of argparse: a number, or the name of one, which presets.settings judges."""
     try:
         return float(text)
     except ValueError:
         return text
 
 
-for _type, _word in ((positive, "number above zero"), (theta, "number"), (not_negative, "number"), (finite, "number"),
-                     (count, "whole number"), (threads, "whole number"), (seed, "whole number")):
-    _type.__name__ = _word       # argparse says: invalid <name> value
+def add_quick(group, what, values):
+    """--quick, whose help is `what` and the values, a dict, that Options.set_quick then takes."""
+    words = ", ".join(f"--{name} {value}" for name, value in values.items())
+    group.add_argument("--quick", action="store_true", help=f"{what} {words} unless given")
 
 
 def add_packing(parser, until):
@@ -143,7 +120,15 @@ def add_packing(parser, until):
     return group
 
 
+def refuse_nothing_to_press(options):
+    """InputError for an end of the packing that its start is at or beyond."""
+    if options.until <= options.solid_fraction:
+        raise InputError(f"--until {options.until:g} is not above --solid-fraction {options.solid_fraction:g}: "
+                         "give a larger one.")
+
+
 def add_material(parser):
+    """The options of which make_material makes a material."""
     group = parser.add_argument_group("the material of the grains")
     group.add_argument("--material", choices=("nh", "mr"), default="nh", help="Neo-Hookean or Mooney-Rivlin")
     group.add_argument("--lambda", type=finite, default=61e6, dest="lambda_", metavar="PA", help="Neo-Hookean, Pa")
@@ -164,6 +149,7 @@ def make_material(options):
 
 
 def add_method(parser):
+    """The options of time integration, resolution and solver."""
     group = parser.add_argument_group("the method")
     group.add_argument("--integrator", choices=("explicit", "implicit", "auto"), default="explicit",
                        help="time integration; auto picks by the speed, and says so")
@@ -237,11 +223,8 @@ def choose_method(options, step):
 
 def _explicit_step():
     """About the stable step of the soft grains of the scene, from cell widths and speeds of sound [s]."""
-    least = float("inf")
-    for body in O.bodies:
-        if isinstance(body.shape, wrapper.SoftGrain):
-            least = min(least, 0.6 * body.shape.cellWidth() / math.sqrt(_wave_modulus(body.mat) / body.mat.density))
-    return least
+    return min((0.6 * body.shape.cellWidth() / math.sqrt(_wave_modulus(body.mat) / body.mat.density)
+                for body in measures.softBodies()), default=math.inf)
 
 
 def _wave_modulus(material):
@@ -249,6 +232,12 @@ def _wave_modulus(material):
     if isinstance(material, wrapper.NeoHookeanMat):
         return material.lambda_ + 2 * material.mu
     return 2 * material.c + 4 * material.c2 + 4 * (material.c1 + material.c2)
+
+
+def command_line():
+    """The words by which this process was started: python, yade, options and script of yade, options of the script."""
+    with open("/proc/self/cmdline", "rb") as file:
+        return [os.fsdecode(word) for word in file.read().split(b"\0")[:-1]]
 
 
 def use_threads(wanted):
@@ -261,8 +250,7 @@ def use_threads(wanted):
         raise InputError(f"--threads {wanted} could not be had, yade runs {O.numThreads}: "
                          f"start it with yade -j{wanted}.")
     os.environ[mark] = str(wanted)
-    with open("/proc/self/cmdline", "rb") as file:
-        words = [os.fsdecode(word) for word in file.read().split(b"\0")[:-1]]
+    words = command_line()
     script = words.index(sys.argv[0], 2)
     before, skip = [], False
     for word in words[2:script]:

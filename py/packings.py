@@ -11,7 +11,10 @@ from . import arrays, measures, summary
 
 
 class SoftPacking:
-    """All soft grains of the scene."""
+    """All soft grains of the scene. InputError when there is no SoftIntegrator.
+
+    frictional  whether two contacts hold a grain, see measures.coordination
+    """
 
     def __init__(self, frictional):
         self.frictional = frictional
@@ -51,6 +54,7 @@ class SoftPacking:
                 "cut_steps": soft.totalCuts}
 
     def total_sweeps(self):
+        """Sweeps of the contact solver since the scene was made, of implicit steps iterations [-]."""
         return self.integrator.totalIterations
 
     def stage_seconds(self):
@@ -68,7 +72,7 @@ class SoftPacking:
 
 
 class RigidPacking:
-    """All dynamic spheres of the scene, taken as discs of unit thickness; needs O.trackEnergy."""
+    """All spheres of the scene, taken as discs of unit thickness; needs O.trackEnergy. `frictional` as of SoftPacking."""
 
     def __init__(self, frictional):
         self.frictional = frictional
@@ -80,14 +84,16 @@ class RigidPacking:
         self.law = loop.lawDispatcher.functors[0]
 
     def area(self):
+        """Of the discs [m²]."""
         return math.pi * math.fsum(radius * radius for radius in self.radii)
 
     def contacts(self):
+        """coordination, rattlers, contacts of the last step."""
         return measures.coordination(measures.rigidContactPairs(), self.ids, self.frictional)
 
     def energies(self):
-        """The dissipation of YADE's numerical damping stands in contact_dissipation_J; external_work_J is summed by
-        the loop."""
+        """Energies now and dissipations since the start [J/m]: csv columns. That of YADE's numerical damping stands in
+        contact_dissipation_J; external_work_J is summed by the loop."""
         tracked = dict(O.energy.items())
         return {"kinetic_J": utils.kineticEnergy(), "elastic_J": self.law.elasticEnergy(),
                 "friction_J": tracked.get("plastDissip", 0.0), "contact_dissipation_J": tracked.get("nonviscDamp", 0.0)}
@@ -99,12 +105,15 @@ class RigidPacking:
         return {"max_penetration_over_R": max(deepest, 0.0)}
 
     def total_sweeps(self):
+        """NaN: there is no solver."""
         return math.nan
 
     def stage_seconds(self):
+        """Empty: there is no SoftIntegrator."""
         return {}
 
     def snapshot(self):
+        """What figure 1 shows: the outlines; see figure1.py."""
         turn = numpy.linspace(0, 2 * math.pi, 48, endpoint=False)
         circle = numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
         outlines = [circle * radius + numpy.array(body.state.pos)[:2] for body, radius in zip(self.bodies, self.radii)]

@@ -10,7 +10,7 @@ import math
 import numpy
 from yade import O
 
-from . import jamming
+from . import jamming, measures
 from .stepping import WallForces
 
 OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
@@ -42,12 +42,9 @@ class Press:
 
     def __init__(self, run, packing, box, speed, longest=None):
         self.run, self.packing, self.box, self.speed = run, packing, box, speed
-        self.forces = WallForces({"bottom": (box["bottom"], 1), "top": (box["top"], 1)}, run.interrupted,
-                                 longest)
-        if run.resumed:
-            self.memory = run.memory
-            self.forces.restore(self.memory["forces"])
-        else:
+        self.memory = run.memory
+        self.forces = WallForces({"bottom": (box["bottom"], 1), "top": (box["top"], 1)}, run, longest)
+        if not run.resumed:
             self._begin()
 
     def go(self, until, stress_limit=math.inf):
@@ -61,26 +58,25 @@ class Press:
         self._take("end")
 
     def _one_window(self):
-        memory = self.memory
-        begin, end = self._time_of(memory["window"]), self._time_of(memory["window"] + 1)
-        if memory["middle"] is None and self.forces.advance((begin + end) / 2):
-            memory["middle"] = {"contacts": self.packing.contacts(),
-                                "penetration": self.packing.solver().get("max_penetration_over_R", 0.0)}
-        if memory["middle"] is None or not self.forces.advance(end):
-            self._remember()
-            self.run.stop()
+        window = self.memory["window"]
+        self.forces.through_window(self._time_of(window), self._time_of(window + 1), self._instant)
         self._record()
-        self._remember()
+        self.forces.remember()
+
+    def _instant(self):
+        """What is seen half-way through a window."""
+        return {"contacts": self.packing.contacts(),
+                "penetration": self.packing.solver().get("max_penetration_over_R", 0.0)}
 
     def height(self):
+        """Of the top wall above the bottom one, now [m]."""
         return O.bodies[self.box["top"]].state.pos[1]
 
     def _begin(self):
         """The first step, which prepares the grains, and what the run starts from."""
         O.bodies[self.box["top"]].state.vel = (0, -self.speed, 0)
-        self.memory = self.run.memory
         self.memory.update(window=0, middle=None, fraction=0.0, stress=0.0, steps=0, jammed=False, work=0.0)
-        self.forces.first_step(self.run)
+        self.forces.first_step()
         self.forces.require_steps(self._time_of(1), self.speed)
         self.run.begin()
         area = self.packing.area()
@@ -88,7 +84,7 @@ class Press:
                            sweeps=self.packing.total_sweeps(), energy0=self._stored_energy())
         self._take("start")
         self.forces.reset()
-        self._remember()
+        self.forces.remember()
         self.run.checkpoint()
 
     def _time_of(self, window):
@@ -96,6 +92,7 @@ class Press:
         return self.box["height"] * -math.expm1(-window * OUTPUT_STRAIN) / self.speed
 
     def _record(self):
+        """Appends the row of the window that has just ended, and begins the next one."""
         memory, packing, width = self.memory, self.packing, self.box["width"]
         area, height, sweeps = packing.area(), self.height(), packing.total_sweeps()
         mean_area, mean_height = (area + memory["area"]) / 2, (height + memory["h"]) / 2
@@ -109,7 +106,7 @@ class Press:
         coordination, rattlers, contacts = memory["middle"]["contacts"]
         row = {"time_s": O.time, "strain": math.log(self.box["height"] / mean_height),
                "solid_fraction": mean_area / (width * mean_height),
-               "log_volume_change": math.log(mean_area / memory["area0"]),
+               "log_volume_change": measures.volumeChange(mean_area, memory["area0"]),
                "stress_bottom_Pa": -self.forces.mean("bottom") / width,
                "stress_top_Pa": self.forces.mean("top") / width,
                "coordination": coordination, "rattlers": rattlers, "contacts": contacts, **energies,
@@ -126,6 +123,7 @@ class Press:
             self._take("jamming")
 
     def _stored_energy(self, energies=None):
+        """Kinetic and elastic energy [J/m], of these or of now."""
         energies = energies or self.packing.energies()
         return energies["kinetic_J"] + energies["elastic_J"]
 
@@ -138,10 +136,8 @@ class Press:
                                strain=math.log(self.box["height"] / height),
                                solid_fraction=self.packing.area() / (width * height), **content)
 
-    def _remember(self):
-        self.memory["forces"] = self.forces.state()
-
     def _share(self, until):
+        """Of the way to this solid fraction, for the progress."""
         fraction = self.memory["fraction"]
         begin = self.memory["area0"] / (self.box["width"] * self.box["height"])
         return (fraction - begin) / max(until - begin, 1e-12)

@@ -40,6 +40,7 @@ class Progress:
         self.stream.flush()
 
     def _to_go(self, share):
+        """The time to go in words, empty as long as it is not known."""
         (then, before), (now, _) = self._recent[0], self._recent[-1]
         if share <= before or now - self._begin < 1:
             return ""

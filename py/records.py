@@ -9,7 +9,8 @@ class Table:
     """A csv file with fixed columns. Every row is on disk when `append` returns."""
 
     def __init__(self, path, columns, rows=0):
-        """Opens the file and keeps its first `rows` rows; later ones (after a checkpoint) are cut."""
+        """Opens the file and keeps its first `rows` rows; later ones (after a checkpoint) are cut. ValueError when it has
+        fewer."""
         self.columns = columns
         self.rows = rows
         kept = [",".join(columns)]
@@ -19,7 +20,7 @@ class Table:
         self._file = open(path, "a", encoding="ascii")
 
     def append(self, row):
-        """Writes a dict of columns; absent ones become nan."""
+        """Writes a dict of columns; absent ones become nan. KeyError for one that the table does not have."""
         unknown = set(row) - set(self.columns)
         if unknown:
             raise KeyError(f"not columns of the table: {', '.join(sorted(unknown))}")
@@ -28,6 +29,7 @@ class Table:
         self.rows += 1
 
     def close(self):
+        """After the last row."""
         self._file.close()
 
     @staticmethod
@@ -45,13 +47,11 @@ class Table:
 
 
 def read_table(path):
-    """A csv file as a dict from column to array of float."""
+    """A csv file of numbers as a dict from column to array of float."""
     import numpy
 
-    with open(path, encoding="ascii") as file:
-        lines = file.read().splitlines()
-    columns = lines[0].split(",")
-    values = numpy.array([[float(word) for word in line.split(",")] for line in lines[1:]])
+    columns, rows = _read(path)
+    values = numpy.array([[float(word) for word in row] for row in rows])
     return {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)}
 
 
@@ -63,10 +63,20 @@ def read_rows(path):
         except ValueError:
             return word
 
+    columns, rows = _read(path)
+    return [dict(zip(columns, map(value, row))) for row in rows]
+
+
+def _read(path):
+    """The columns of a csv file and its rows, as lists of words. Lines that begin with # are comments."""
     with open(path, encoding="ascii") as file:
-        lines = file.read().splitlines()
-    columns = lines[0].split(",")
-    return [dict(zip(columns, map(value, line.split(",")))) for line in lines[1:]]
+        columns, *rows = (line.split(",") for line in file.read().splitlines() if not line.startswith("#"))
+    return columns, rows
+
+
+def write_table(path, columns, rows):
+    """Writes a whole csv file in one stroke; a row holds its values in the order of the columns."""
+    replace_text(path, "".join(",".join(map(shown, row)) + "\n" for row in [columns, *rows]))
 
 
 def replace_text(path, text):
@@ -80,18 +90,19 @@ def replace_text(path, text):
 
 
 def write_json(path, content, nan=False):
-    """Writes a dict as json, in one stroke. NaN becomes null, unless `nan` lets Python's own NaN stand."""
+    """Writes a dict to a json file, in one stroke. NaN becomes null, unless `nan` lets Python's own NaN stand."""
     replace_text(path, json.dumps(content if nan else _finite(content), indent=2) + "\n")
 
 
 def read_json(path):
+    """The content of a json file. OSError or ValueError when there is none."""
     with open(path, encoding="utf-8") as file:
         return json.load(file)
 
 
 def shown(value):
-    """A value as it stands in a csv file."""
-    return str(value) if isinstance(value, (int, str)) else f"{value:.10g}"
+    """A value as it stands in a csv file: numbers with ten digits, words with semicolons for their commas."""
+    return str(value).replace(",", ";") if isinstance(value, (int, str)) else f"{value:.10g}"
 
 
 def _finite(content):

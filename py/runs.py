@@ -29,7 +29,7 @@ class Interrupted(Exception):
 
 
 class Run:
-    """One run.
+    """One run of the example `name`. Raises InputError for a folder that cannot be used as the options ask.
 
     options     of the command line; when resumed, the stored ones replace them
     memory      what the example wants to find again after --resume: a dict that json can hold
@@ -76,6 +76,7 @@ class Run:
         self.table = Table(self.path(f"{self.name}.csv"), columns, rows)
 
     def path(self, file):
+        """Of a file in the folder of the run."""
         return os.path.join(self.folder, file)
 
     def cpu_seconds(self):
@@ -116,6 +117,7 @@ class Run:
         return scene
 
     def _load_scene(self, stored):
+        """Loads what _save_scene saved; `stored` is the content of checkpoint.json. Raises InputError."""
         try:
             O.load(self.path(stored["scene"]), quiet=True)
         except (RuntimeError, MemoryError) as error:    # MemoryError: boost takes what it reads for a size
@@ -123,6 +125,7 @@ class Run:
                              f"({str(error) or 'no saved scene'}): start anew with --force.") from None
 
     def checkpoint_if_due(self):
+        """After --checkpoint-seconds of wall time, later where checkpoints would take more than MOST_CHECKPOINT_SHARE."""
         interval = max(self.options.checkpoint_seconds, self._checkpoint_cost / MOST_CHECKPOINT_SHARE)
         if time.monotonic() - self._checkpoint_at > interval:
             self.checkpoint()
@@ -148,6 +151,7 @@ class Run:
         self.table.close()
 
     def _make_folder(self):
+        """InputError when nothing can be written there."""
         if not self.options.out.strip():
             raise InputError("--out is empty: name a folder.")
         try:
@@ -161,6 +165,7 @@ class Run:
                              "one with --out.") from None
 
     def _refuse_to_overwrite(self):
+        """InputError when the folder holds a run."""
         if os.path.exists(self.path("summary.json")):
             raise InputError(f"the folder {self.options.out} holds a finished run: give another one with --out, or "
                              "overwrite it with --force.")
@@ -220,6 +225,7 @@ def _versions():
 
 
 def _named(versions):
+    """The versions in words, for messages."""
     return " under ".join(f"{name} {versions.get(name, '?')}" for name in SAVED_BY)
 
 

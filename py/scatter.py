@@ -5,7 +5,7 @@ import math
 import numpy
 
 from . import jamming
-from .records import read_table, replace_text, shown
+from .records import read_table, write_table
 
 REACH = 0.1             # of solid fraction beyond jamming, over which k is fitted
 COLUMNS = ("strain", "coordination", "stress_bottom_Pa", "log_volume_change")   # of the mean curves
@@ -17,7 +17,7 @@ OBSERVABLES = ("jamming_fraction", "jamming_strain", "Z0", "k", "exponent", "exp
 
 
 def observables(table):
-    """dict of OBSERVABLES; nan for what a run does not reach."""
+    """The OBSERVABLES of one run from its csv columns, a dict; nan for what it does not reach."""
     point = jamming.jamming_point(table)
     result = dict.fromkeys(OBSERVABLES, math.nan)
     result.update(Z_end=float(table["coordination"][-1]), log_volume_change_end=float(table["log_volume_change"][-1]))
@@ -34,6 +34,7 @@ def observables(table):
 
 
 def _prefactor(table, fraction0, count0):
+    """k of Z - count0 = k (phi - fraction0)^0.5 over REACH, by least squares."""
     beyond = table["solid_fraction"] - fraction0
     used = (beyond > 0) & (beyond <= REACH) & numpy.isfinite(table["coordination"])
     root = numpy.sqrt(beyond[used])
@@ -46,20 +47,29 @@ def over_seeds(rows):
     for name in OBSERVABLES:
         values = numpy.array([row[name] for row in rows if math.isfinite(row[name])])
         if len(values):
-            error = values.std(ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
-            result[name] = (float(values.mean()), float(error))
+            result[name] = mean_and_error(values)
     return result
 
 
+def mean_and_error(values):
+    """Mean of an array and the standard error of it, nan for a single value."""
+    return float(values.mean()), float(_deviation(values)) / math.sqrt(len(values))
+
+
+def _deviation(values):
+    """Standard deviation over the first axis, nan for a single value."""
+    return values.std(axis=0, ddof=1) if len(values) > 1 else numpy.full(values.shape[1:], math.nan)
+
+
 def curve_file(case, seed):
+    """Name of the file with the curves of one run."""
     return "curve-" + "".join(letter if letter.isalnum() else "-" for letter in case.lower()) + f"-{seed}.csv"
 
 
 def keep(table, path):
     """Writes solid_fraction and COLUMNS of a run."""
     names = ("solid_fraction", *COLUMNS)
-    rows = numpy.stack([table[name] for name in names], axis=1)
-    replace_text(path, "\n".join([",".join(names), *(",".join(map(shown, row)) for row in rows.tolist())]) + "\n")
+    write_table(path, names, numpy.stack([table[name] for name in names], axis=1).tolist())
 
 
 def mean_curves(paths):
@@ -71,15 +81,15 @@ def mean_curves(paths):
     result = {}
     for name in COLUMNS:
         values = numpy.array([numpy.interp(fraction, table["solid_fraction"], table[name]) for table in tables])
-        spread = values.std(axis=0, ddof=1) if len(values) > 1 else numpy.full(len(fraction), math.nan)
-        result[name] = (fraction, values.mean(axis=0), spread)
+        result[name] = (fraction, values.mean(axis=0), _deviation(values))
     return result
 
 
 def write_curves(path, curves):
-    lines = [",".join(["case", "solid_fraction", *(f"{name}{end}" for name in COLUMNS for end in ("", "_deviation"))])]
+    """Writes the mean curves of all cases to one csv file: solid_fraction, and each of COLUMNS with its deviation."""
+    rows = []
     for case, columns in curves.items():
         fraction = columns[COLUMNS[0]][0]
-        rows = numpy.stack([fraction, *(values for name in COLUMNS for values in columns[name][1:])], axis=1)
-        lines += [",".join([case.replace(",", ";"), *map(shown, row)]) for row in rows.tolist()]
-    replace_text(path, "\n".join(lines) + "\n")
+        values = numpy.stack([fraction, *(values for name in COLUMNS for values in columns[name][1:])], axis=1)
+        rows += [[case, *row] for row in values.tolist()]
+    write_table(path, ["case", "solid_fraction", *(f"{name}{end}" for name in COLUMNS for end in ("", "_deviation"))], rows)

@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Packings of several seeds in pictures: coordination along the solid fraction, jamming of every case, eq. 10."""
-import os
-
 import matplotlib.pyplot as plt
 import numpy
 
-from .figures import COLOURS, MARKERS, STYLE
+from .figures import COLOURS, MARKERS, STYLE, save
 from .scatter import REACH
 
 JAMMING_2D = 0.84   # of frictionless discs (O'Hern et al. 2003)
 
 
 def draw(means, curves, path):
-    """Writes figure1.png to figure3.png. means: case -> observable -> (mean, error); curves: case -> column -> (solid
-    fraction, mean, deviation)."""
+    """Writes figure1.png to figure3.png to the paths that the function `path` makes of these. means: case -> observable
+    -> (mean, error), see scatter.over_seeds; curves: case -> column -> (solid fraction, mean, deviation)."""
     with plt.rc_context({**STYLE, "figure.figsize": (7.6, 5.0), "savefig.dpi": 130}):
         _coordination(means, curves, path("figure1.png"))
         _jamming(means, path("figure2.png"))
@@ -38,7 +36,7 @@ def _coordination(means, curves, path):
         axes.plot(start + REACH * share, count + k * numpy.sqrt(REACH * share), color=colour)
     axes.set(xlabel=r"solid fraction  $\Phi$  [-]", ylabel=r"contacts per grain without rattlers  $Z$  [-]")
     axes.legend(fontsize=9)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _jamming(means, path):
@@ -57,7 +55,7 @@ def _jamming(means, path):
     axes.set_ylim(-0.6, len(cases) - 0.1)
     axes.margins(x=0.12)
     axes.set_xlabel(r"solid fraction at jamming  $\Phi_0$  [-]")
-    _write(figure, path)
+    save(figure, path)
 
 
 def _normalised(means, curves, path):
@@ -75,10 +73,4 @@ def _normalised(means, curves, path):
     axes.plot(share, numpy.sqrt(share), color="0.1", linewidth=1.3, label="eq. 10: exponent 0.5")
     axes.set(xlabel=r"$(\Phi-\Phi_0)/(\Phi_1-\Phi_0)$  [-]", ylabel=r"$(Z-Z_0)/(Z_1-Z_0)$  [-]")
     axes.legend(fontsize=9, title=r"for $\Phi_0$ at jamming / 0.01 / 0.02 beyond", alignment="left")
-    _write(figure, path)
-
-
-def _write(figure, path):
-    figure.savefig(path + ".part", format="png")
-    os.replace(path + ".part", path)
-    plt.close(figure)
+    save(figure, path)

@@ -3,18 +3,31 @@
 stopped goes on with the rows that are missing."""
 import dataclasses
 import glob
+import math
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 import typing
 
+from . import options as opt, summary
 from .records import read_rows, shown
 from .runs import Run
 
 POLL_SECONDS = 0.05
+
+
+def read_options(parser, group, quick, what):
+    """The options of a study on the command line: those that the parser and its group hold already, --quick (`quick`,
+    `what`: as of options.add_quick), --at-once and those of every run."""
+    opt.add_quick(group, what, quick)
+    parser.add_management()
+    parser.add_argument("--at-once", type=opt.count, default=min(2, os.cpu_count()), metavar="N",
+                        help="runs at a time, each a process of one thread")
+    options = parser.read()
+    options.set_quick(quick)
+    return options
 
 
 @dataclasses.dataclass
@@ -36,7 +49,7 @@ class Job:
 
 class Study(Run):
     """A run whose rows are runs. `columns` begins with those of the jobs' keys, and ends with `status`: done, or why a
-    run has no result."""
+    run has no result. Raises InputError as Run does."""
 
     def __init__(self, name, options, columns):
         super().__init__(name, options, columns)
@@ -47,7 +60,8 @@ class Study(Run):
             shutil.rmtree(left)
 
     def compute(self, jobs, at_once):
-        """Runs the jobs that have no row yet, the dearest first."""
+        """Runs the jobs that have no row yet, the dearest first. Raises Interrupted when the study is asked to stop: the
+        runs under way are given up."""
         done = {self._name(row, jobs[0].key) for row in self.rows()}
         waiting = sorted((job for job in jobs if self._name(job.key, job.key) not in done), key=lambda job: job.cost)
         left, running = sum(job.cost for job in waiting), []
@@ -79,11 +93,25 @@ class Study(Run):
         """All rows that are there: dicts, numbers as numbers."""
         return read_rows(self.path(f"{self.name}.csv"))
 
+    def done(self):
+        """The rows of the runs that have a result."""
+        return [row for row in self.rows() if row["status"] == "done"]
+
+    def head(self):
+        """How the summary of every study begins: as that of every run, and how many runs it is made of, what they cost,
+        the rows of those without a result."""
+        rows, done = self.rows(), self.done()
+        return {**summary.head(self), "runs": len(rows), "cpu_s_of_runs": math.fsum(row["cpu_s"] for row in done),
+                "wall_s": self.wall_seconds(), "not_done": [row for row in rows if row["status"] != "done"]}
+
+    def enough_done(self, what, most_failed=0.0):
+        """The check (sentence, holds) that no more than this share of the runs failed; `what` says so in a word."""
+        runs, done = len(self.rows()), len(self.done())
+        return f"{what} runs came to an end ({done} of {runs})", runs - done <= most_failed * runs
+
     def _start(self, job):
         folder = tempfile.mkdtemp(prefix="run-", dir=self.folder)
-        with open("/proc/self/cmdline", "rb") as file:
-            yade = [os.fsdecode(word) for word in file.read().split(b"\0")[:2]]
-        command = [*yade, "-n", "-x", "-j1", "--", job.example, *map(str, job.arguments), "--out", folder]
+        command = [*opt.command_line()[:2], "-n", "-x", "-j1", "--", job.example, *map(str, job.arguments), "--out", folder]
         with open(os.path.join(folder, "said.txt"), "w", encoding="utf-8") as said:
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
         return job, process, folder
@@ -96,7 +124,7 @@ class Study(Run):
         else:
             with open(os.path.join(folder, "said.txt"), encoding="utf-8") as said:
                 lines = [line for line in said.read().splitlines() if line.startswith(os.path.basename(job.example))]
-            result["status"] = (lines[-1] if lines else f"exit code {process.returncode}").replace(",", ";")
+            result["status"] = lines[-1] if lines else f"exit code {process.returncode}"
         self.table.append({**job.key, **result})
         self.checkpoint()
         shutil.rmtree(folder)

@@ -6,6 +6,7 @@ import os
 import numpy
 
 from .records import read_json, read_table, shown
+from .scatter import mean_and_error
 
 OBSERVABLES = ["force_rms_error", "force_worst_error", "area_error", "stress_Pa", "coordination", "log_volume_change",
                "energy_residual_over_work", "deepest_penetration_over_R", "min_J"]
@@ -16,7 +17,7 @@ FRACTIONS = (0.92, 0.98)    # solid fractions of a packing over which its observ
 def of_grain(folder, reference):
     """Observables of a squeeze between plates. Errors are relative to the finite elements in the file `reference`:
     root mean square and largest error of the force; root mean square error of the area over the area lost."""
-    table, summary, true = read_table(os.path.join(folder, "squeeze.csv")), _summary(folder), _reference(reference)
+    table, summary, true = read_table(os.path.join(folder, "squeeze.csv")), _summary(folder), read_table(reference)
     inside = (table["squeeze"] >= SQUEEZES[0] - 1e-9) & (table["squeeze"] <= SQUEEZES[1] + 1e-9)
     at = table["squeeze"][inside]
     force = table["force_per_thickness_N_m"][inside] / _cubic(true["squeeze"], true["F_N_per_m"], at) - 1
@@ -29,7 +30,8 @@ def of_grain(folder, reference):
 
 
 def of_packing(folder):
-    """Observables of a compaction: means over FRACTIONS, the stress also of bottom and top."""
+    """Observables of the compaction in a folder: means over FRACTIONS, which it has to reach; the stress is the mean of
+    bottom and top."""
     table, summary = read_table(os.path.join(folder, "compaction.csv")), _summary(folder)
     at = numpy.linspace(*FRACTIONS, 61)
     table["stress_Pa"] = (table["stress_bottom_Pa"] + table["stress_top_Pa"]) / 2
@@ -41,13 +43,13 @@ def of_packing(folder):
 
 
 class Measured:
-    """The rows of a study by setting: a dict of knobs. A setting of which no run came to an end has None for errors."""
+    """The rows of those runs of a study that have a result, by setting: a dict of knobs. A setting without such a run has
+    None for errors."""
 
     def __init__(self, rows, knobs, finest):
         self._knobs, self._rows = knobs, {}
         for row in rows:
-            if row["status"] == "done":
-                self._rows.setdefault((row["case"], self._name(row)), []).append(row)
+            self._rows.setdefault((row["case"], self._name(row)), []).append(row)
         self._finest = {row["sample"]: row for row in self._of("packing", finest)}
 
     def grain(self, setting):
@@ -67,9 +69,7 @@ class Measured:
         errors = {}
         for name, column in (("stress", "stress_Pa"), ("coordination", "coordination"), ("volume", "log_volume_change")):
             scale = 1 if name == "coordination" else abs(numpy.mean([true[column] for _, true in pairs]))
-            difference = numpy.array([row[column] - true[column] for row, true in pairs]) / scale
-            spread = difference.std(ddof=1) / math.sqrt(len(pairs)) if len(pairs) > 1 else math.nan
-            errors[name] = (float(difference.mean()), float(spread))
+            errors[name] = mean_and_error(numpy.array([row[column] - true[column] for row, true in pairs]) / scale)
         return {**errors, **_common([row for row, _ in pairs])}
 
     def _of(self, case, setting):
@@ -101,14 +101,6 @@ def _cost(summary):
 
 def _summary(folder):
     return read_json(os.path.join(folder, "summary.json"))
-
-
-def _reference(path):
-    """Columns of a reference table: comment lines, a line of names, rows."""
-    with open(path, encoding="utf-8") as file:
-        lines = [line.strip() for line in file if line.strip() and not line.startswith("#")]
-    rows = numpy.array([[float(word) for word in line.split(",")] for line in lines[1:]])
-    return dict(zip(lines[0].split(","), rows.T))
 
 
 def _cubic(x, y, at):

@@ -5,81 +5,68 @@ import math
 import matplotlib.pyplot as plt
 from matplotlib.ticker import NullFormatter
 
-from .figures import COLOURS, MARKERS, STYLE
+from .figures import COLOURS, MARKERS, STYLE, save
 from .work_precision import front
 
 FLOOR = 1e-9        # errors below are drawn here
 BESIDE = ((5, 5), (5, -12), (-20, -12), (-20, 5))      # where labels stand, line after line [points]
+ON_GRAIN, IN_PACKING = "CPU time of one grain [s]", "CPU time of a packing [s]"
 KNOB_NAMES = {"surface_spacing": "surface spacing / cell width", "safety": "time step / stable step",
               "tolerance": "tolerance of the contact solver"}
 
 
 def draw(measured, methods, sweeps, base, candidates, table, path):
-    """Writes figure1.png to figure5.png. methods, sweeps: name -> (settings on one grain, settings in packings); base: the setting
-    that all sweeps share."""
+    """Writes figure1.png to figure5.png to the paths that the function `path` makes of these.
+
+    measured    work_precision.Measured
+    methods     name -> (settings on one grain, settings in packings), a line each; sweeps: the same of single knobs
+    base        the setting that all sweeps share
+    candidates  (CPU time [s], error [-], ...) of every setting that presets were chosen from
+    table       the content of accuracy.json
+    """
     with plt.rc_context({**STYLE, "figure.figsize": (7.2, 5.0), "savefig.dpi": 130,
                          "figure.constrained_layout.use": False}):
-        _one_grain(measured, methods, path("figure1.png"))
-        _packings(measured, methods, path("figure2.png"))
+        grain = {name: _found(measured.grain, settings) for name, (settings, _) in methods.items()}
+        packing = {name: _found(measured.packing, settings) for name, (_, settings) in methods.items()}
+        _methods(grain, ON_GRAIN, {"force": "error of the force, rms [-]", "area": "error of the area lost, rms [-]"},
+                 path("figure1.png"))
+        _methods(packing, IN_PACKING, {"stress": "difference of the stress [-]", "coordination": "difference of Z [-]",
+                                       "volume": "difference of the volume change [-]"}, path("figure2.png"))
         _knobs(measured, sweeps, base, path("figure3.png"))
-        _balance(measured, methods, path("figure4.png"))
+        _methods(packing, IN_PACKING, {"energy": "energy residual / external work [-]",
+                                       "penetration": "deepest penetration / radius [-]"}, path("figure4.png"))
         _presets(candidates, table, path("figure5.png"))
 
 
-def _one_grain(measured, methods, path):
-    figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
-    for axis, error, what in zip(axes, ("force", "area"), ("error of the force, rms", "error of the area lost, rms")):
-        lines = {name: [(f"{knobs['points']}", found["cpu_s"], found[error], 0.0)
-                        for knobs, found in _found(measured.grain, grain)] for name, (grain, _) in methods.items()}
-        _draw_lines(axis, lines)
-        axis.set(xlabel="CPU time of one grain [s]", ylabel=f"{what} [-]")
+def _methods(found, time, errors, path):
+    """A diagram for each of `errors`, name -> what it is, with a line for each method; found: method -> list of (setting,
+    its errors); time: what the time is."""
+    figure, axes = plt.subplots(1, len(errors), figsize=(6 + 2.2 * len(errors), 4.9))
+    for axis, (error, what) in zip(axes, errors.items()):
+        _draw_lines(axis, {method: [(f"{knobs['points']}", known["cpu_s"], *_size(known[error]))
+                                    for knobs, known in settings] for method, settings in found.items()})
+        axis.set(xlabel=time, ylabel=what)
     _one_legend(figure, axes)
-    _write(figure, path)
-
-
-def _packings(measured, methods, path):
-    figure, axes = plt.subplots(1, 3, figsize=(12.6, 4.9))
-    for axis, name, what in zip(axes, ("stress", "coordination", "volume"),
-                                ("difference of the stress [-]", "difference of Z [-]",
-                                 "difference of the volume change [-]")):
-        lines = {method: [(f"{knobs['points']}", found["cpu_s"], abs(found[name][0]), found[name][1])
-                          for knobs, found in _found(measured.packing, packing)]
-                 for method, (_, packing) in methods.items()}
-        _draw_lines(axis, lines)
-        axis.set(xlabel="CPU time of a packing [s]", ylabel=what)
-    _one_legend(figure, axes)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _knobs(measured, sweeps, base, path):
     figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
     for index, (knob, (grain, packing)) in enumerate(sweeps.items()):
-        for axis, found, error in ((axes[0], _found(measured.grain, grain), _force),
-                                   (axes[1], _found(measured.packing, packing), _stress)):
-            points = [("" if knobs == base else f"{knobs[knob]:g}", errors["cpu_s"], *error(errors))
+        for axis, found, error in ((axes[0], _found(measured.grain, grain), "force"),
+                                   (axes[1], _found(measured.packing, packing), "stress")):
+            points = [("" if knobs == base else f"{knobs[knob]:g}", errors["cpu_s"], *_size(errors[error]))
                       for knobs, errors in found]
             _line(axis, KNOB_NAMES[knob], points, index)
-    axes[0].set(xlabel="CPU time of one grain [s]", ylabel="error of the force, rms [-]")
-    axes[1].set(xlabel="CPU time of a packing [s]", ylabel="difference of the stress [-]")
-    for axis, errors, error in ((axes[0], measured.grain(base), _force), (axes[1], measured.packing(base), _stress)):
+    axes[0].set(xlabel=ON_GRAIN, ylabel="error of the force, rms [-]")
+    axes[1].set(xlabel=IN_PACKING, ylabel="difference of the stress [-]")
+    for axis, errors, error in ((axes[0], measured.grain(base), "force"), (axes[1], measured.packing(base), "stress")):
         axis.set(xscale="log", yscale="log")
         if errors:
-            axis.plot(errors["cpu_s"], max(error(errors)[0], FLOOR), "*", markersize=13, color="0.25", zorder=3,
+            axis.plot(errors["cpu_s"], max(_size(errors[error])[0], FLOOR), "*", markersize=13, color="0.25", zorder=3,
                       label="1, 0.8 and 0.001")
     _one_legend(figure, axes)
-    _write(figure, path)
-
-
-def _balance(measured, methods, path):
-    figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
-    for axis, error, what in zip(axes, ("energy", "penetration"),
-                                 ("energy residual / external work [-]", "deepest penetration / radius [-]")):
-        lines = {name: [(f"{knobs['points']}", found["cpu_s"], found[error], 0.0)
-                        for knobs, found in _found(measured.packing, packing)] for name, (_, packing) in methods.items()}
-        _draw_lines(axis, lines)
-        axis.set(xlabel="CPU time of a packing [s]", ylabel=what)
-    _one_legend(figure, axes)
-    _write(figure, path)
+    save(figure, path)
 
 
 def _presets(candidates, table, path):
@@ -96,21 +83,17 @@ def _presets(candidates, table, path):
         axis.axhline(error, color=COLOURS[1], linewidth=1, linestyle="--")
         axis.annotate(f"'{name}'", (1, error), (-3, 3), xycoords=("axes fraction", "data"), textcoords="offset points",
                       ha="right", color=COLOURS[1], fontsize=10)
-    axis.set(xscale="log", yscale="log", xlabel="CPU time of a packing [s]", ylabel="largest error in stress [-]")
+    axis.set(xscale="log", yscale="log", xlabel=IN_PACKING, ylabel="largest error in stress [-]")
     axis.margins(x=0.1)
     _whole_decades(axis)
     axis.legend(loc="lower left")
     figure.tight_layout()
-    _write(figure, path)
+    save(figure, path)
 
 
-def _force(errors):
-    return errors["force"], 0.0
-
-
-def _stress(errors):
-    mean, spread = errors["stress"]
-    return abs(mean), spread
+def _size(error):
+    """An error and its spread: some are means that come with one."""
+    return (abs(error[0]), error[1]) if isinstance(error, tuple) else (error, 0.0)
 
 
 def _found(measure, settings):
@@ -155,8 +138,3 @@ def _whole_decades(axis):
         limit(10 ** math.floor(low), 10 ** math.ceil(high))
     for direction in (axis.xaxis, axis.yaxis):
         direction.set_minor_formatter(NullFormatter())
-
-
-def _write(figure, path):
-    figure.savefig(path)
-    plt.close(figure)

@@ -5,13 +5,12 @@ Compacts a loose cloud of discs from solid fraction 0.65 at 1 m/s and times the 
 and TO, by reference areas. Prints one line of JSON with everything in seconds, counts and metres.
 """
 import json
-import math
 import resource
 import sys
 import time
 
 from softgrain import *
-from softgrain.builders import softBox, softCloud, softEngines, widthOfSquareCloud
+from softgrain.builders import widthOfSquareCloud
 
 grains, points = int(sys.argv[1]), int(sys.argv[2])
 start, stop, seed = float(sys.argv[3]), float(sys.argv[4]), int(sys.argv[5])
@@ -25,7 +24,7 @@ O.bodies.append(bodies)
 top = O.bodies[O.bodies.append(softBox(width, height, walls))[3]]
 top.state.vel = (0, -speed, 0)
 O.engines = softEngines()
-integrator = next(engine for engine in O.engines if isinstance(engine, SoftIntegrator))
+integrator = measures.softIntegrator()
 
 
 def advance(fraction):

@@ -8,7 +8,7 @@ import sys
 
 from yade import O
 from yade.utils import box, facet, sphere, wall
-from yade.wrapper import (Body, Bo1_Box_Aabb, Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ElastMat, ForceResetter,
+from yade.wrapper import (Body, Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ElastMat, ForceResetter,
                           FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop,
                           Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator,
                           Omega, State)

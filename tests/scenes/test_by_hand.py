@@ -114,7 +114,7 @@ def saved_and_loaded(checks):
     with Folder() as folder:
         path = os.path.join(folder, "scene.yade")
         for what in "before saving", "after loading":
-            body = scene((0, {"velocity": (1, 0, 0)}))
+            scene((0, {"velocity": (1, 0, 0)}))
 
             def change():
                 O.bodies[0].state.pos += (0, 1e-3, 0)

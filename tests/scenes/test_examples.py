@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every example, short, inside the real yade: exit code 0, the files, the csv columns, and figures from two runs."""
-import json
 import os
 import subprocess
 import sys
@@ -9,7 +8,7 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import EXAMPLES, Folder, run_example, run_tests, said  # noqa: E402
-from softgrain.records import read_rows, read_table  # noqa: E402
+from softgrain.records import read_json, read_rows, read_table  # noqa: E402
 
 COMPACTION = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
               "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
@@ -22,11 +21,6 @@ def header(path):
         return file.readline().strip()
 
 
-def load(path):
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
-
-
 def compaction(checks):
     with Folder() as folder:
         for material in ("nh", "mr"):
@@ -37,7 +31,7 @@ def compaction(checks):
             for number in range(1, 6):
                 path = os.path.join(out, f"figure{number}.png")
                 checks.that(f"figure {number}", os.path.exists(path) and os.path.getsize(path) > 10000)
-            table, summary = read_table(os.path.join(out, "compaction.csv")), load(os.path.join(out, "summary.json"))
+            table, summary = read_table(os.path.join(out, "compaction.csv")), read_json(os.path.join(out, "summary.json"))
             left = table["log_volume_change"]
             right = numpy.log(table["solid_fraction"] / 0.65) - table["strain"]
             checks.that("eq. 9 holds in every row", abs(left - right).max() < 1e-6, abs(left - right).max())

@@ -45,9 +45,8 @@ struct Bar {
 Bar vibrate(const Material& material, int cells_across_height)
 {
     const double lambda = material.parameters[0], mu = material.parameters[1], c = bar_speed(lambda, mu);
-    Resolution resolution;
-    resolution.points = 40 * cells_across_height * cells_across_height;
-    const auto mesh = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(length, height)), resolution);
+    const auto mesh
+        = mesh_of(PolygonOutline(rectangle_vertices(length, height)), 40 * cells_across_height * cells_across_height);
     const double radius = std::sqrt(length * height / M_PI);
     World world;
     Grain<2>& grain = world.add(make_grain(mesh, material, {}, radius, density));
@@ -60,7 +59,7 @@ Bar vibrate(const Material& material, int cells_across_height)
         grain.velocity[2 * i + 1] = -1e-4 * c / radius * contraction * wave_number * X.y() * std::cos(wave_number * X.x());
     }
     grain.refresh();
-    const double dt = 0.5 * critical_step(grain, unit_critical_step(grain));
+    const double dt = step_of(grain, 0.5);
     std::vector<double> zeros;
     double before = 0;
     while (zeros.size() < 11) {

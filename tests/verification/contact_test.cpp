@@ -55,7 +55,7 @@ Indentation indent(const Material& material, int points, const Table* table)
     World world;
     const Grain<2>& grain = world.add(make_grain(disc_mesh(points), material, {}, radius, density));
     world.planes = { { 1, 1, -radius, speed }, { 1, -1, radius, -speed } };
-    const double dt = 0.6 * critical_step(grain, unit_critical_step(grain)), window = 1e-3;
+    const double dt = step_of(grain, 0.6), window = 1e-3;
     const auto squeeze = [&] { return 1 - world.planes[1].position / radius; };
     Indentation result;
     for (double end = window; end < 0.03 + window / 2; end += window) {
@@ -128,7 +128,7 @@ Bounce bounce(int discs, int points, double ratio)
     }
     if (discs == 1) world.planes = { { 1, 1, 0, 0 } };
     const Grain<2>& grain = world.grains[0];
-    const double dt = 0.5 * critical_step(grain, unit_critical_step(grain)), before = grain.motion.velocity.y();
+    const double dt = step_of(grain, 0.5), before = grain.motion.velocity.y();
     world.step(dt);
     const double first = world.energy();
     double impulse = 0, begin = 0, end = 0;
@@ -203,7 +203,7 @@ Rest settle(World& world, double unit)
 {
     double dt = 1e300;
     for (const auto& grain : world.grains)
-        dt = std::min(dt, 0.5 * critical_step(grain, unit_critical_step(grain)));
+        dt = std::min(dt, step_of(grain, 0.5));
     const size_t count = world.grains.size();
     Rest result;
     result.plane.assign(world.planes.size(), 0);
@@ -260,9 +260,7 @@ void print(const char* name, const Rest& rest, double weight)
 TEST(Stack, OfBlocksCarriesTheWeightAboveEachContact)
 {
     const double modulus = 300 * density * gravity * radius;
-    Resolution resolution;
-    resolution.points = 64;
-    const auto mesh = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(1, 1)), resolution);
+    const auto mesh = mesh_of(PolygonOutline(rectangle_vertices(1, 1)), 64);
     for (double tolerance : { 1e-3, 1e-6, 1e-10 }) {
         World world;
         world.friction = 0.5;

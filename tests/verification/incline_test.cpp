@@ -14,7 +14,7 @@ constexpr double friction = 0.3;
 
 /// Lengths in radii R, times in sqrt(R / g).
 struct Incline {
-    std::shared_ptr<const Discretisation<2>> mesh;
+    Mesh mesh;
     double height = 0;         ///< of the centre over the plane
     double tangent = 0;        ///< of the angle of the incline
     double stiffness = 100;    ///< shear modulus over density x g x R; Lame's first constant is as large
@@ -45,7 +45,7 @@ Ride ride(const Incline& c)
     const Grain<2>& grain = world.add(make_grain(c.mesh, { "Neo-Hookean", { modulus, modulus } }, start, c.radius, density));
     world.planes = { { 1, 1, 0, 0 } };
     world.friction = friction;
-    const double dt = 0.5 * critical_step(grain, unit_critical_step(grain));
+    const double dt = step_of(grain, 0.5);
     const auto smooth = [](double t) { return t <= 0 ? 0 : t >= 1 ? 1 : t * t * t * (10 + t * (6 * t - 15)); };
     const auto step = [&] {
         const double t = world.time / unit, tilt = angle * smooth((t - c.ramp) / c.tilt);
@@ -86,10 +86,8 @@ Ride ride(const Incline& c)
 
 Incline block(double tangent)
 {
-    Resolution resolution;
-    resolution.points = 256;
     Incline c;
-    c.mesh = std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(1, 1)), resolution);
+    c.mesh = mesh_of(PolygonOutline(rectangle_vertices(1, 1)), 256);
     c.height = std::sqrt(M_PI) / 2;
     c.tangent = tangent;
     return c;

@@ -12,7 +12,7 @@
 namespace softgrain::testing_support {
 
 struct ManufacturedCase {
-    std::shared_ptr<const Discretisation<2>> mesh;
+    Mesh mesh;
     double radius = 1, density = 1;  ///< [m], [kg/m3]
     std::vector<Material> materials; ///< of one grain each; the solution has to hold for all
     double until = 1;                ///< [s]

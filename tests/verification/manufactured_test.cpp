@@ -197,12 +197,9 @@ TEST(Vortex, OfKamojjalaConverges)
     }
 }
 
-std::shared_ptr<const Discretisation<2>> square_mesh(int points, double offset)
+Mesh square_mesh(int points, double offset)
 {
-    Resolution resolution;
-    resolution.points = points;
-    resolution.offset = { offset, 1.7 * offset, 0 };
-    return std::make_shared<Discretisation<2>>(PolygonOutline(rectangle_vertices(1, 1)), resolution);
+    return mesh_of(PolygonOutline(rectangle_vertices(1, 1)), points, offset, 1.7 * offset);
 }
 
 // Displacements and velocities are of order 2; the stress is of order 1, since its pressure is one value a region. Edges are

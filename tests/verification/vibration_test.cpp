@@ -117,7 +117,7 @@ TEST(FreeVibration, StepsOscillateAtTheOperatorsFrequency)
         grain.velocity[i] = mode.shape[i] * 1e-4 * 2 * M_PI * mode.frequency / fastest; // strains of 1e-4
     grain.refresh();
     world.add(grain);
-    const double dt = 0.5 * critical_step(grain, unit_critical_step(grain));
+    const double dt = step_of(grain, 0.5);
     // zeros of the strain that the mode has most of, by lines between the steps
     Mat<2> direction = Mat<2>::Zero();
     std::vector<double> zeros;

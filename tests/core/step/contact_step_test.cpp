@@ -2,6 +2,7 @@
 // Grains that meet: balances of momentum and energy, threads and lanes.
 #include "support/layouts.hpp"
 #include "support/sums.hpp"
+#include "support/twelve_discs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ struct Collision {
     double momentum, angular, energy, dissipated; ///< changes, relative
     explicit Collision(World& world, double share, double duration = 4e-4)
     {
-        const double dt = share * critical_step(world.grains[0], unit_critical_step(world.grains[0]));
+        const double dt = step_of(world.grains[0], share);
         const Sums before(world);
         world.step(dt);
         const double first = world.energy();
@@ -42,9 +43,8 @@ struct Collision {
         const Sums after(world);
         momentum = (after.momentum - before.momentum).norm() / before.size;
         angular = (after.angular - before.angular) / (before.size * 1e-3);
-        const double lost = world.balance.contact_dissipation + world.balance.friction;
-        energy = (world.energy() + lost) / first - 1;
-        dissipated = lost / first;
+        energy = (world.energy() + world.lost()) / first - 1;
+        dissipated = world.lost() / first;
     }
 };
 
@@ -103,14 +103,10 @@ TEST(Collision, BalancesItsEnergy)
 void add_crowd(World& world, int across, int points, double spacing, bool shapes_too)
 {
     const auto disc = disc_mesh(points);
-    std::vector<std::shared_ptr<const Discretisation<2>>> others;
+    std::vector<Mesh> others;
     if (shapes_too)
-        for (const auto& shape : shapes()) {
-            Resolution resolution;
-            resolution.points = points;
-            if (shape.name == "hexagon" || shape.name == "ellipse")
-                others.push_back(std::make_shared<Discretisation<2>>(*shape.outline, resolution));
-        }
+        for (const auto& shape : shapes())
+            if (shape.name == "hexagon" || shape.name == "ellipse") others.push_back(mesh_of(*shape.outline, points));
     Random random(5);
     for (int i = 0; i < across; ++i)
         for (int j = 0; j < across; ++j) {
@@ -197,19 +193,9 @@ TEST(Result, IsTheSameBitForBitInEveryLane)
 TEST(Compaction, TwelveDiscsStayWhole)
 {
     World world;
-    Random random(7);
-    double area = 0;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 3; ++j) {
-            GrainStart start;
-            start.centre = 2.5e-3 * Vec<2>(i + 0.5, j + 0.5) + random.vector<2>(1e-4);
-            start.angle = random.uniform(0, 7);
-            const double radius = random.uniform(0.7e-3, 1.15e-3);
-            area += M_PI * radius * radius;
-            world.add(make_grain(disc_mesh(124), j % 2 ? neo_hookean() : mooney_rivlin(), start, radius));
-        }
-    const double width = 1e-2;
-    world.planes = { { 0, 1, 0, 0 }, { 0, -1, width, 0 }, { 1, 1, 0, 0 }, { 1, -1, 7.5e-3, -1 } };
+    const TwelveDiscs discs(world, [](int row, const GrainStart& start, double radius) { // a mesh and so a batch for each
+        return make_grain(disc_mesh(124), row % 2 ? neo_hookean() : mooney_rivlin(), start, radius);
+    });
     world.solver.tolerance = 1e-3;
     std::vector<double> unit;
     for (const auto& grain : world.grains)
@@ -223,7 +209,7 @@ TEST(Compaction, TwelveDiscsStayWhole)
         }
     };
     renew();
-    while (area / (width * world.planes[3].position) < 0.95) {
+    while (discs.solid_fraction() < 0.95) {
         world.step(dt);
         deepest = std::min(deepest, world.deepest);
         if (world.steps % 20 == 0) {
@@ -231,14 +217,14 @@ TEST(Compaction, TwelveDiscsStayWhole)
             renew();
         }
     }
-    const double total = world.energy() + world.balance.contact_dissipation + world.balance.friction;
+    const double total = world.energy() + world.lost();
     EXPECT_GT(min_J, 0.5);
     EXPECT_GE(deepest, -5e-3 * 1.15e-3);
     EXPECT_NEAR(total / world.balance.external_work, 1, 5e-3);
     EXPECT_GE(world.balance.contact_dissipation, 0);
     for (const auto& grain : world.grains) {
         EXPECT_GT(grain.surface.min.x(), -1e-5);
-        EXPECT_LT(grain.surface.max.x(), width + 1e-5);
+        EXPECT_LT(grain.surface.max.x(), discs.width + 1e-5);
     }
     std::printf("12 discs to 0.95: %d steps, %.1f sweeps a step, J >= %.3f, deepest %.1e R, energy %+.1e of the work, "
                 "residual %.1e\n",

@@ -12,8 +12,6 @@ using namespace softgrain::testing_support;
 
 namespace {
 
-double step_of(Grain<2>& grain, double share) { return share * critical_step(grain, unit_critical_step(grain)); }
-
 // The force has no resultant and no couple, and positions move along momenta: symplectic Euler keeps both sums exactly;
 // each step rounds anew.
 TEST(FreeFlight, KeepsMomentumAndAngularMomentum)
@@ -150,7 +148,6 @@ void add_grains(World& world, int count)
     }
 }
 
-// The guards have to hold in one lane and in many, also where the compiler may reorder arithmetic.
 // Surfaces that contact does not want come on demand, the same but for round-off; boxes, speeds and travels in any case.
 TEST(FreeFlight, BringsSurfacesOnDemand)
 {
@@ -186,6 +183,7 @@ TEST(FreeFlight, BringsSurfacesOnDemand)
     }
 }
 
+// The guards have to hold in one lane and in many, also where the compiler may reorder arithmetic.
 TEST(FreeFlight, StopsAtAPointTurnedInsideOut)
 {
     for (int count : { 1, 5 }) {
@@ -248,7 +246,7 @@ TEST(FreeFlight, StopsAtAStepOverTheStableLimit)
     World world;
     add_grains(world, 2);
     world.grains[1].velocity[3] += 1e-3;
-    const double dt = 1.05 * critical_step(world.grains[1], unit_critical_step(world.grains[1]));
+    const double dt = step_of(world.grains[1], 1.05);
     EXPECT_NE(failure(world, dt, 2000), "");
 }
 

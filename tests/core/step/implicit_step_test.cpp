@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The implicit step: order in time, energy, contact that never penetrates, equilibria that depend on nothing but the loads.
 #include "support/implicit_world.hpp"
-#include "support/random.hpp"
+#include "support/twelve_discs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,39 +47,24 @@ TEST(ThetaScheme, HasOrderOneAtOneAndOrderTwoAtOneHalf)
     }
 }
 
-/// Four columns of three discs in a box whose top comes down at 1 m/s.
 struct Press {
     ImplicitWorld world;
-    double area = 0, width = 1e-2;
+    TwelveDiscs discs;
 
-    explicit Press(double friction = 0, const Material& material = neo_hookean())
+    explicit Press(double friction = 0)
+        : discs(world, [mesh = disc_mesh(124)](int, const GrainStart& start, double radius) {
+            return make_grain(mesh, neo_hookean(), start, radius);
+        })
     {
-        Random random(7);
-        const auto mesh = disc_mesh(124);
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < 3; ++j) {
-                GrainStart start;
-                start.centre = 2.5e-3 * Vec<2>(i + 0.5, j + 0.5) + random.vector<2>(1e-4);
-                start.angle = random.uniform(0, 7);
-                const double radius = random.uniform(0.7e-3, 1.15e-3);
-                area += M_PI * radius * radius;
-                world.add(make_grain(mesh, material, start, radius));
-            }
-        world.planes = { { 0, 1, 0, 0 }, { 0, -1, width, 0 }, { 1, 1, 0, 0 }, { 1, -1, 7.5e-3, -1 } };
         world.friction = friction;
     }
-    double fraction() const { return area / (width * world.planes[3].position); }
     void go(double until, double dt)
     {
-        while (fraction() < until)
+        while (discs.solid_fraction() < until)
             world.step(dt);
     }
-    double residual()
-    {
-        const double total = world.total_energy() + world.balance.contact_dissipation + world.balance.friction;
-        return (total + world.dissipated) / world.balance.external_work - 1;
-    }
-    double stress() const { return world.plane_force[3].y() / width; }
+    double residual() { return (world.energy() + world.lost() + world.dissipated) / world.balance.external_work - 1; }
+    double stress() const { return world.plane_force[3].y() / discs.width; }
 };
 
 // 0.2 microseconds is about the limit of explicit steps here.

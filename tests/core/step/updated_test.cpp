@@ -23,8 +23,6 @@ GrainStart updated(const Mat<2>& velocity_gradient = Mat<2>::Zero(), const Vec<2
     return start;
 }
 
-double step_of(Grain<2>& grain, double share) { return share * critical_step(grain, unit_critical_step(grain)); }
-
 // An affine velocity is in the range of the grid: nodes, surface and points carry it exactly, and the motion sums are those
 // of the lumped masses.
 TEST(UpdatedForm, IsPutWhereItIsToldWithTheVelocityItIsTold)

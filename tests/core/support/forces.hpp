@@ -3,18 +3,9 @@
 #pragma once
 
 #include "step/assembly.hpp"
-
-#include <deque>
+#include "support/grains.hpp"
 
 namespace softgrain::testing_support {
-
-inline std::vector<Grain<2>*> pointers(std::deque<Grain<2>>& grains)
-{
-    std::vector<Grain<2>*> all;
-    for (auto& grain : grains)
-        all.push_back(&grain);
-    return all;
-}
 
 /// Force on the masters of each grain, [node][Dim] [N/m]. Grains of one mesh and law go through wide lanes together, a
 /// grain alone through one lane.

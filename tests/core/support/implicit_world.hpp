@@ -1,38 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A small scene for the implicit scheme: soft grains, rigid planes that move at given speeds, all pairs tested for contact.
+// A small scene that moves by implicit steps.
 #pragma once
 
-#include "contact/narrow_phase.hpp"
 #include "step/implicit_run.hpp"
-#include "support/grains.hpp"
-#include "support/world.hpp"
-
-#include <deque>
-#include <optional>
+#include "support/scene.hpp"
 
 namespace softgrain::testing_support {
 
-class ImplicitWorld : private ImplicitScene<2> {
+class ImplicitWorld : public Scene, private ImplicitScene<2> {
 public:
-    std::deque<Grain<2>> grains; ///< addresses hold
-    std::vector<Plane> planes;
     ImplicitSettings settings;
-    double friction = 0;
-    Vec<2> gravity = Vec<2>::Zero();
 
-    double time = 0, kinetic = 0, elastic = 0, dissipated = 0;
-    EnergyBalance balance;
-    std::vector<Vec<2>> plane_force; ///< at the end of the last step [N/m]
-    ImplicitStep<2>::Outcome last;
+    ImplicitStep<2>::Outcome last; ///< of the last substep
+    // since the start
     int iterations = 0, substeps = 0, cuts = 0;
-    double worst_penetration = 0, worst_residual = 0;
-
-    Grain<2>& add(const Grain<2>& grain)
-    {
-        grains.push_back(grain);
-        grains.back().id = int(grains.size()) - 1;
-        return grains.back();
-    }
+    double worst_penetration = 0, worst_residual = 0; ///< as in Outcome
+    double dissipated = 0;                            ///< by the scheme [J/m]
 
     void step(double dt)
     {
@@ -49,102 +32,84 @@ public:
                 source_[c]->force = contact.total();
             }
             assembly_->renew(h, settings.threads);
-            for (Plane& plane : planes)
-                plane.position += h * plane.speed;
+            pass(h);
         });
         iterations += run_->report.iterations;
         substeps += run_->report.substeps;
         cuts += run_->report.cuts;
         dissipated += run_->report.dissipated;
-        time += dt;
     }
-    double total_energy()
+    /// Elastic and, unless quasi-static, kinetic [J/m].
+    double energy()
     {
         assembly_->evaluate_energy(0, 1);
-        kinetic = elastic = 0;
+        double kinetic = 0, elastic = 0;
         for (const auto& grain : grains) {
             kinetic += grain.motion.kinetic;
             elastic += grain.elastic;
         }
         return settings.quasistatic ? elastic : kinetic + elastic;
     }
-    size_t contact_count() const { return run_->step.contacts.size(); }
     double min_J() const { return assembly_->min_J(); }
 
 private:
-    std::optional<Assembly<2>> assembly_;
     std::optional<ImplicitRun<2>> run_;
-    std::vector<PairContacts<2>> pairs_;        ///< of i < j
-    std::vector<PlaneContacts<2>> plane_pairs_; ///< [plane][grain]
-    std::vector<ContactPoint<2>*> source_;
-    std::vector<size_t> plane_of_;
+    std::vector<ContactPoint<2>*> source_; ///< of the contacts
+    std::vector<size_t> plane_of_;         ///< number of the plane, where a contact is with one
 
     void start()
     {
-        std::vector<Grain<2>*> members;
-        for (auto& grain : grains)
-            members.push_back(&grain);
-        assembly_.emplace(members);
+        assemble(pointers(grains));
         // the assembly keeps the order
         for (Grain<2>* grain : assembly_->grains())
             bodies.push_back(&grain->surface);
         run_.emplace(*assembly_);
-        pairs_.resize(grains.size() * (grains.size() - 1) / 2);
-        plane_pairs_.resize(planes.size() * grains.size());
     }
 
+    /// What contacts with grains and planes have in common; appended.
+    BarrierContact<2>& append(std::vector<BarrierContact<2>>& found, ContactPoint<2>& point, size_t body, double size,
+                              size_t plane)
+    {
+        source_.push_back(&point);
+        plane_of_.push_back(plane);
+        BarrierContact<2>& c = found.emplace_back();
+        c.body = int(body);
+        c.other = -1;
+        c.point = point.point;
+        c.friction = friction;
+        c.size = size;
+        c.normal = point.normal;
+        c.force = std::max(0.0, point.force.dot(point.normal));
+        c.shear = point.force.dot(c.tangent());
+        return c;
+    }
     std::vector<BarrierContact<2>> contacts(double ahead, double dt) override
     {
         std::vector<BarrierContact<2>> found;
         source_.clear();
         plane_of_.clear();
-        size_t pair = 0;
-        for (size_t i = 0; i < grains.size(); ++i)
-            for (size_t j = i + 1; j < grains.size(); ++j) {
-                auto& contacts = pairs_[pair++];
-                Surface<2>&a = grains[i].surface, &b = grains[j].surface;
-                const double size = std::min(a.size, b.size);
-                contacts.look(a, b, ahead * size);
-                for (auto& point : contacts.points) {
-                    BarrierContact<2> c {};
-                    c.body = int(point.on_second ? j : i);
-                    c.other = int(point.on_second ? i : j);
-                    c.point = point.point;
-                    c.face = point.face;
-                    c.let = point.let;
-                    c.friction = friction;
-                    c.size = size;
-                    c.normal = point.normal;
-                    c.force = std::max(0.0, point.force.dot(point.normal));
-                    c.shear = point.force.dot(c.tangent());
-                    found.push_back(c);
-                    source_.push_back(&point);
-                    plane_of_.push_back(0);
-                }
+        each_pair([&](auto& contacts, size_t i, size_t j) {
+            const Surface<2>&a = grains[i].surface, &b = grains[j].surface;
+            const double size = std::min(a.size, b.size);
+            contacts.look(a, b, ahead * size);
+            for (auto& point : contacts.points) {
+                auto& c = append(found, point, point.on_second ? j : i, size, 0);
+                c.other = int(point.on_second ? i : j);
+                c.face = point.face;
+                c.let = point.let;
             }
-        for (size_t w = 0; w < planes.size(); ++w)
-            for (size_t i = 0; i < grains.size(); ++i) {
-                auto& contacts = plane_pairs_[w * grains.size() + i];
-                const Plane& plane = planes[w];
-                contacts.look(grains[i].surface, plane.axis, plane.position, plane.side,
-                              ahead * grains[i].surface.size + std::abs(plane.speed) * dt);
-                for (auto& point : contacts.points) {
-                    BarrierContact<2> c {};
-                    c.body = int(i);
-                    c.other = -1;
-                    c.point = point.point;
-                    c.normal = point.normal;
-                    c.plane = plane.side * (plane.position + dt * plane.speed);
-                    c.drive = dt * plane.speed * Vec<2>::Unit(plane.axis);
-                    c.friction = friction;
-                    c.size = grains[i].surface.size;
-                    c.force = std::max(0.0, point.force.dot(point.normal));
-                    c.shear = point.force.dot(c.tangent());
-                    found.push_back(c);
-                    source_.push_back(&point);
-                    plane_of_.push_back(w);
-                }
+        });
+        each_plane_pair([&](auto& contacts, size_t w, size_t i) {
+            const Surface<2>& surface = grains[i].surface;
+            const Plane& plane = planes[w];
+            contacts.look(surface, plane.axis, plane.position, plane.side,
+                          ahead * surface.size + std::abs(plane.speed) * dt);
+            for (auto& point : contacts.points) {
+                auto& c = append(found, point, i, surface.size, w);
+                c.plane = plane.side * (plane.position + dt * plane.speed);
+                c.drive = dt * plane.speed * Vec<2>::Unit(plane.axis);
             }
+        });
         return found;
     }
     Vec<2> prediction(const Vec<2>& place, double dt) const override

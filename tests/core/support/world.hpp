@@ -1,49 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A small scene: soft grains, rigid planes that move at given speeds, all pairs tested for contact. Wires the core
-// as its callers do: detect, predict, solve, account, correct.
+// A small scene that moves by explicit steps. Wires the core as its callers do: detect, predict, solve, account, correct.
 #pragma once
 
-#include "contact/narrow_phase.hpp"
 #include "solver/nlgs.hpp"
-#include "step/assembly.hpp"
 #include "step/critical_step.hpp"
-#include "support/grains.hpp"
-
-#include <deque>
-#include <optional>
+#include "support/scene.hpp"
 
 namespace softgrain::testing_support {
 
-struct Plane {
-    int axis, side;         ///< grains stand on the `side` (+1, -1) of x[axis] = position
-    double position, speed; ///< [m], [m/s] along the axis
-};
+/// This share of the critical step of a grain as it is [s].
+inline double step_of(const Grain<2>& grain, double share)
+{
+    return share * critical_step(grain, unit_critical_step(grain));
+}
 
-class World {
+class World : public Scene {
 public:
-    std::deque<Grain<2>> grains; ///< addresses hold
-    std::vector<Plane> planes;
     NonlinearGaussSeidel<2> solver { 1e-6, 1000 };
-    double friction = 0;
-    Vec<2> gravity = Vec<2>::Zero();
     int threads = 1;
     std::vector<int> order; ///< in which the assembly takes the grains; none: as they are
 
     // of the last step
     ContactProblem<2> problem;
-    double dt = 0, deepest = 0;      ///< [s]; smallest gap [m]
-    std::vector<Vec<2>> plane_force; ///< on the planes [N/m]
+    double dt = 0, deepest = 0; ///< [s]; smallest gap [m]
     // since the start
-    EnergyBalance balance;
-    double time = 0;
     int sweeps = 0, steps = 0;
-
-    Grain<2>& add(const Grain<2>& grain)
-    {
-        grains.push_back(grain);
-        grains.back().id = int(grains.size()) - 1;
-        return grains.back();
-    }
 
     void step(double dt_)
     {
@@ -56,9 +37,7 @@ public:
         scatter();
         Assembly<2>::account(problem, balance);
         assembly_->correct(dt, threads);
-        for (Plane& plane : planes)
-            plane.position += dt * plane.speed;
-        time += dt;
+        pass(dt);
         ++steps;
     }
 
@@ -101,9 +80,6 @@ public:
     }
 
 private:
-    std::optional<Assembly<2>> assembly_;
-    std::vector<PairContacts<2>> pairs_;                   ///< of i < j
-    std::vector<PlaneContacts<2>> plane_pairs_;            ///< [plane][grain]
     std::vector<std::pair<ContactPoint<2>*, int>> owners_; ///< of the contacts; number of the plane or -1
 
     void start()
@@ -111,24 +87,19 @@ private:
         std::vector<Grain<2>*> members;
         for (size_t k = 0; k < grains.size(); ++k)
             members.push_back(&grains[order.empty() ? k : size_t(order[k])]);
-        assembly_.emplace(members);
-        pairs_.resize(grains.size() * (grains.size() - 1) / 2);
-        plane_pairs_.resize(planes.size() * grains.size());
+        assemble(members);
     }
 
     void detect()
     {
-        size_t pair = 0;
-        for (size_t i = 0; i < grains.size(); ++i)
-            for (size_t j = i + 1; j < grains.size(); ++j)
-                pairs_[pair++].update(grains[i].surface, grains[j].surface, dt);
-        for (size_t w = 0; w < planes.size(); ++w)
-            for (size_t i = 0; i < grains.size(); ++i)
-                plane_pairs_[w * grains.size() + i].update(grains[i].surface, planes[w].axis, planes[w].position,
-                                                           planes[w].side, std::abs(planes[w].speed), dt);
+        each_pair([&](auto& contacts, size_t i, size_t j) { contacts.update(grains[i].surface, grains[j].surface, dt); });
+        each_plane_pair([&](auto& contacts, size_t w, size_t i) {
+            const Plane& plane = planes[w];
+            contacts.update(grains[i].surface, plane.axis, plane.position, plane.side, std::abs(plane.speed), dt);
+        });
     }
 
-    void add(std::vector<ContactPoint<2>>& points, int first, int second, const Vec<2>& drive, int plane)
+    void gather(std::vector<ContactPoint<2>>& points, int first, int second, const Vec<2>& drive, int plane)
     {
         static const SignoriniCoulomb<2> law;
         for (auto& p : points) {
@@ -146,15 +117,10 @@ private:
         deepest = 0;
         for (auto& grain : grains)
             problem.bodies.push_back(&grain.surface);
-        const int count = int(grains.size());
-        size_t pair = 0;
-        for (int i = 0; i < count; ++i)
-            for (int j = i + 1; j < count; ++j)
-                add(pairs_[pair++].points, i, j, Vec<2>::Zero(), -1);
-        for (size_t w = 0; w < planes.size(); ++w)
-            for (int i = 0; i < count; ++i)
-                add(plane_pairs_[w * grains.size() + i].points, i, -1, planes[w].speed * Vec<2>::Unit(planes[w].axis),
-                    int(w));
+        each_pair([&](auto& contacts, size_t i, size_t j) { gather(contacts.points, int(i), int(j), Vec<2>::Zero(), -1); });
+        each_plane_pair([&](auto& contacts, size_t w, size_t i) {
+            gather(contacts.points, int(i), -1, planes[w].speed * Vec<2>::Unit(planes[w].axis), int(w));
+        });
     }
 
     void scatter()
