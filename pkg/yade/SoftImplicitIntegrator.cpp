@@ -150,18 +150,6 @@ void SoftImplicitIntegrator::trackEnergies()
     scene->energy->set(numericalDissipation, "softNumerical", numericalId_);
 }
 
-Real SoftImplicitIntegrator::elasticEnergy()
-{
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
-    evaluate();
-    if (!assembly_) return 0;
-    assembly_->evaluate_energy(0, threads());
-    Real sum = 0;
-    for (const SoftState* state : soft_.states)
-        sum += state->grain.elastic;
-    return sum;
-}
-
 boost::python::tuple SoftImplicitIntegrator::contactProblem() const
 {
     throw std::runtime_error(

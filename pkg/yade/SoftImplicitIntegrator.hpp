@@ -10,7 +10,6 @@ namespace yade {
 
 class SoftImplicitIntegrator : public SoftIntegrator {
 public:
-    Real elasticEnergy() override;
     Real kineticEnergy() override { return quasistatic ? 0 : SoftIntegrator::kineticEnergy(); }
     Real residual() const override { return run_ ? run_->report.residual : 0; }
     boost::python::tuple contactProblem() const override;
@@ -47,6 +46,7 @@ public:
 
 protected:
     Real lookAhead() const override { return 1.5 * softgrain::ImplicitStep<2>::ahead; }
+    Real velocitiesBehind() const override { return 0; }
     void assembled() override;
     void advance(double dt) override;
     void requireSaneAttributes() const override;

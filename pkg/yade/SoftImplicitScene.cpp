@@ -83,19 +83,13 @@ std::vector<softgrain::BarrierContact<2>> SoftImplicitScene::contacts(double ahe
             geom.pair.look(surface, pair.second->grain.surface, near + (pair.rigid ? surface.speed * dt : 0));
         }
         for (const auto& point : geom.points()) {
-            const bool onSecond = geom.withPlane || point.on_second;
             softgrain::BarrierContact<2> contact {};
-            contact.body = onSecond ? pair.body2 : pair.body1;
-            contact.other = onSecond ? pair.body1 : pair.body2;
-            contact.point = point.point;
-            contact.face = point.face;
-            contact.normal = point.normal;
+            pair.describe(point, contact);
             contact.let = point.let;
             if (geom.withPlane) {
                 contact.plane = geom.side * (position + dt * speed);
                 contact.drive = dt * pair.rigid->vel.head<2>();
             }
-            contact.friction = pair.phys->tangensOfFrictionAngle;
             contact.size = pair.size();
             contact.force = std::max(0.0, point.force.dot(point.normal));
             contact.shear = point.force.dot(contact.tangent());

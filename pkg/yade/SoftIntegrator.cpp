@@ -276,7 +276,7 @@ Real SoftIntegrator::elasticEnergy()
     const std::lock_guard<std::recursive_mutex> lock(guard_);
     evaluate();
     if (!assembly_) return 0;
-    assembly_->evaluate_energy(scene->dt, threads());
+    assembly_->evaluate_energy(2 * velocitiesBehind(), threads());
     Real sum = 0;
     for (const SoftState* state : soft_.states)
         sum += state->grain.elastic;

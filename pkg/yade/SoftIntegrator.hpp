@@ -23,7 +23,7 @@ public:
 
     /// Renews elastic energies and smallest stretches.
     void evaluate();
-    virtual Real elasticEnergy();
+    Real elasticEnergy();
     virtual Real kineticEnergy();
     Real solidArea();
     Real minJ() const;
@@ -95,6 +95,8 @@ protected:
     void refuseStrangersNowAndThen();
     std::vector<TouchingPair> touchingPairs() const;
     virtual void trackEnergies();
+    /// How long the velocities' time is before that of the displacements [s].
+    virtual Real velocitiesBehind() const { return scene->dt / 2; }
     int threads() const;
 
     mutable std::recursive_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask

@@ -3,6 +3,8 @@
 
 #include "contact/polyline.hpp"
 
+#include <map>
+
 namespace yade {
 
 namespace {
@@ -19,7 +21,10 @@ void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching
     }
     std::sort(order.begin(), order.end());
 
-    const std::vector<Pair> old = std::move(pairs_);
+    std::map<std::pair<int, int>, Pair::Sum> sums;
+    if (goOn)
+        for (const Pair& pair : pairs_)
+            sums[{ pair.id1, pair.id2 }] = pair.sum;
     pairs_.clear();
     problem.bodies.clear();
     problem.contacts.clear();
@@ -27,10 +32,9 @@ void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching
         problem.bodies.push_back(&state->grain.surface);
     for (const auto& place : order)
         take(scene, std::move(touching[place[2]]));
-    if (!goOn) return;
-    for (const Pair& known : old)
+    if (goOn)
         for (Pair& pair : pairs_)
-            if (pair.id1 == known.id1 && pair.id2 == known.id2) pair.sum = known.sum;
+            pair.sum = sums[{ pair.id1, pair.id2 }];
 }
 
 void SoftPairs::wantSurfaces()
@@ -52,19 +56,13 @@ void SoftPairs::pose(const Scene& scene, Real recovery)
     for (const Pair& pair : pairs_)
         for (const auto& point : pair.geom->points()) {
             deepest = std::max(deepest, -point.gap / pair.size());
-            const bool onSecond = pair.geom->withPlane || point.on_second;
             softgrain::Contact<2> contact;
-            contact.body = onSecond ? pair.body2 : pair.body1;
-            contact.other = onSecond ? pair.body1 : pair.body2;
-            contact.point = point.point;
-            contact.face = point.face;
+            pair.describe(point, contact);
             contact.vertex = point.vertex;
             contact.weight = point.weight;
-            contact.normal = point.normal;
             contact.gap_speed = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt;
             contact.drive = softgrain::Vec<2>::Zero();
             if (pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
-            contact.friction = pair.phys->tangensOfFrictionAngle;
             contact.law = pair.phys->law;
             contact.impulse = scene.dt * point.force;
             problem.contacts.push_back(contact);

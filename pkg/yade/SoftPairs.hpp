@@ -57,6 +57,17 @@ public:
         } sum;
         /// Radius of the smaller grain.
         Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
+        /// Fills in who meets whom where, of a softgrain::Contact or a softgrain::BarrierContact.
+        template <class Contact> void describe(const softgrain::ContactPoint<2>& point, Contact& contact) const
+        {
+            const bool onSecond = geom->withPlane || point.on_second;
+            contact.body = onSecond ? body2 : body1;
+            contact.other = onSecond ? body1 : body2;
+            contact.point = point.point;
+            contact.face = point.face;
+            contact.normal = point.normal;
+            contact.friction = phys->tangensOfFrictionAngle;
+        }
     };
 
     /// Takes the pairs, in any order, and the bodies of their problem; pairs that go on within a step keep their sums.

@@ -123,8 +123,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
                 // lanes without a grain of their own repeat the first, at rest
                 const bool spare = lane >= int(part.size());
                 Grain<Dim>& grain = *part[spare ? 0 : lane];
-                for (int k = 0; k < max_parameters; ++k)
-                    batch->parameters[size_t(k) * lanes + lane] = grain.parameters[k];
+                batch->set_parameters(lane, grain.parameters);
                 batch->inverse_inertia[lane] = 1 / (grain.density * grain.radius * grain.radius);
                 if (spare) continue;
                 grain.pull();

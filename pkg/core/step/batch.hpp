@@ -116,6 +116,12 @@ public:
     AlignedVector displacement, velocity, parameters, inverse_inertia, sums, extent, gain, per_lane;
 
     KernelData<Dim> data();
+    /// Of the law, of the grain in a lane [Pa].
+    void set_parameters(int lane, const std::array<double, max_parameters>& values)
+    {
+        for (int k = 0; k < max_parameters; ++k)
+            parameters[size_t(k) * lanes + lane] = values[k];
+    }
     /// Index into the kernel tables.
     int wide() const { return lanes == 8; }
 };

@@ -25,8 +25,7 @@ namespace {
         Batch<Dim> batch(grains[0].first->mesh, *grains[0].first->law, lanes);
         for (int lane = 0; lane < lanes; ++lane) {
             const Grain<Dim>& grain = *grains[std::min(size_t(lane), grains.size() - 1)].first;
-            for (int k = 0; k < max_parameters; ++k)
-                batch.parameters[size_t(k) * lanes + lane] = grain.parameters[k];
+            batch.set_parameters(lane, grain.parameters);
             for (size_t i = 0; i < size_t(Dim) * batch.mesh->master_count; ++i)
                 batch.displacement[i * lanes + lane]
                     = grain.batch ? grain.batch->displacement[i * grain.batch->lanes + grain.lane] : grain.displacement[i];
@@ -79,7 +78,7 @@ namespace {
 template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
 {
     Batch<Dim> batch(grain.mesh, *grain.law, 1);
-    std::copy(grain.parameters.begin(), grain.parameters.end(), batch.parameters.begin());
+    batch.set_parameters(0, grain.parameters);
     double stiffness;
     highest_eigenvalues(batch, fine, &stiffness);
     return 2 / std::sqrt(stiffness);

@@ -69,7 +69,7 @@ template <int Dim> std::vector<double> Grain<Dim>::with_slaves(const std::vector
 template <int Dim> Batch<Dim> Grain<Dim>::alone() const
 {
     Batch<Dim> batch(mesh, *law, 1);
-    std::copy(parameters.begin(), parameters.end(), batch.parameters.begin());
+    batch.set_parameters(0, parameters);
     std::copy(displacement.begin(), displacement.end(), batch.displacement.begin());
     std::copy(velocity.begin(), velocity.end(), batch.velocity.begin());
     motion_kernels<Dim>().observe[0](batch.data(), batch.sums.data(), batch.extent.data());
