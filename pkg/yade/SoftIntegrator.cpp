@@ -83,7 +83,9 @@ void SoftIntegrator::advance(double dt)
         loads_.work(soft_.of(grain.id), dt);
     };
     assembly_->correct(dt, threads(), hold, [&](softgrain::Grain<2>& grain) { finish(soft_.of(grain.id), dt); });
-    fresh_ = false;
+    if (std::exchange(fresh_, false))
+        for (SoftState* state : soft_.states)
+            state->justPlaced = false;
     frictionDissipation += balance.friction;
     contactDissipation += balance.contact_dissipation;
     externalWork += balance.external_work + loads_.takeWork();
@@ -103,7 +105,6 @@ void SoftIntegrator::finish(int grain, double dt)
     SoftState& state = *soft_.states[grain];
     loads_.work(grain, dt);
     state.publish();
-    state.justPlaced = false;
     // the collider looks at centres only; grains also change shape
     const auto& surface = state.grain.surface;
     if (const auto& bound = soft_.bodies[grain]->bound; bound && surface.travel >= state.insideUntil) {

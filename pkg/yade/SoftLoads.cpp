@@ -82,7 +82,7 @@ void SoftLoads::hold(int index, double dt)
         else
             lacking[k] = 0;
     loads_[index].on += inertias.cwiseProduct(lacking) / dt;
-    grain.add_velocity(lacking.head<2>(), softgrain::rotation_rate(lacking[2]));
+    if (lacking != Vector3r::Zero()) grain.add_velocity(lacking.head<2>(), softgrain::rotation_rate(lacking[2]));
 }
 
 void SoftLoads::work(int index, double dt)

@@ -55,6 +55,28 @@ namespace {
                               + shown(grain.surface.speed) + " m/s) or take a smaller time step.");
     }
 
+    template <int Dim> bool is_left_alone(const Grain<Dim>& grain, const Vec<Dim>& gravity)
+    {
+        return !grain.surface.struck && gravity + grain.acceleration == Vec<Dim>::Zero()
+            && grain.spin_acceleration == Mat<Dim>::Zero();
+    }
+
+    /// Neighbours one after the other, in rows some three grains high: they are set in motion together.
+    template <int Dim> void sort_by_place(std::vector<Grain<Dim>*>& grains)
+    {
+        double sum = 0;
+        for (const Grain<Dim>* grain : grains)
+            sum += grain->radius;
+        const double row = 6 * sum / double(grains.size());
+        std::stable_sort(grains.begin(), grains.end(), [row](const Grain<Dim>* a, const Grain<Dim>* b) {
+            for (int d = Dim - 1; d > 0; --d) {
+                const double of_a = std::floor(a->motion.position[d] / row), of_b = std::floor(b->motion.position[d] / row);
+                if (of_a != of_b) return of_a < of_b;
+            }
+            return a->motion.position[0] < b->motion.position[0];
+        });
+    }
+
     template <int Dim> void predict_updated(Grain<Dim>& grain, double dt, const Vec<Dim>& gravity)
     {
         UpdatedBody<Dim>& body = *grain.updated;
@@ -113,36 +135,60 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
         if (group.empty()) order.push_back({ grain->mesh.get(), grain->law });
         group.push_back(grain);
     }
-    for (const auto& key : order) {
-        const auto& group = groups[key];
-        const int lanes = group.size() == 1 ? 1 : 8;
-        for (size_t first = 0; first < group.size(); first += lanes) {
-            std::vector<Grain<Dim>*> part(group.begin() + first, group.begin() + std::min(first + lanes, group.size()));
-            auto batch = std::make_unique<Batch<Dim>>(part[0]->mesh, *part[0]->law, lanes);
-            for (int lane = 0; lane < lanes; ++lane) {
-                // lanes without a grain of their own repeat the first, at rest
-                const bool spare = lane >= int(part.size());
-                Grain<Dim>& grain = *part[spare ? 0 : lane];
-                batch->set_parameters(lane, grain.parameters);
-                batch->inverse_inertia[lane] = 1 / (grain.density * grain.radius * grain.radius);
-                if (spare) continue;
-                grain.pull();
-                for (size_t i = 0; i < grain.displacement.size(); ++i) {
-                    batch->displacement[i * lanes + lane] = grain.displacement[i];
-                    batch->velocity[i * lanes + lane] = grain.velocity[i];
-                }
-            }
-            motion_kernels<Dim>().extend[batch->wide()](batch->data());
-            batches_.push_back(std::move(batch));
-            members_.push_back(part);
-        }
-    }
+    for (const auto& key : order)
+        put_in_batches(groups[key]);
     least_J_.assign(batches_.size() + updated_.size(), 1);
     for (size_t b = 0; b < batches_.size(); ++b)
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             members_[b][lane]->batch = batches_[b].get();
             members_[b][lane]->lane = int(lane);
         }
+    for (int b = 0; b < batch_count(); ++b)
+        asleep_.push_back(is_at_rest(b));
+}
+
+template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> group)
+{
+    sort_by_place(group);
+    const int lanes = group.size() == 1 ? 1 : 8;
+    for (size_t first = 0; first < group.size(); first += lanes) {
+        std::vector<Grain<Dim>*> part(group.begin() + first, group.begin() + std::min(first + lanes, group.size()));
+        auto batch = std::make_unique<Batch<Dim>>(part[0]->mesh, *part[0]->law, lanes);
+        for (int lane = 0; lane < lanes; ++lane) {
+            // lanes without a grain of their own repeat the first, at rest
+            const bool spare = lane >= int(part.size());
+            Grain<Dim>& grain = *part[spare ? 0 : lane];
+            batch->set_parameters(lane, grain.parameters);
+            batch->inverse_inertia[lane] = 1 / (grain.density * grain.radius * grain.radius);
+            if (spare) continue;
+            grain.pull();
+            for (size_t i = 0; i < grain.displacement.size(); ++i) {
+                batch->displacement[i * lanes + lane] = grain.displacement[i];
+                batch->velocity[i * lanes + lane] = grain.velocity[i];
+            }
+        }
+        motion_kernels<Dim>().extend[batch->wide()](batch->data());
+        batches_.push_back(std::move(batch));
+        members_.push_back(part);
+    }
+}
+
+/// No velocity, and forces that are nothing but round-off.
+template <int Dim> bool Assembly<Dim>::is_at_rest(int b)
+{
+    constexpr double round_off = 1e-12; // of the modulus, over all points of a node
+    Batch<Dim>& batch = *batches_[b];
+    if (!std::all_of(batch.velocity.begin(), batch.velocity.end(), [](double v) { return v == 0; })) return false;
+    const KernelData<Dim> data = batch.data();
+    batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
+    double modulus = 1e300;
+    for (const Grain<Dim>* grain : members_[b])
+        modulus = std::min(modulus, batch.law.wave_modulus(grain->parameters.data()));
+    for (int i = 0; i < Dim * data.master_count * batch.lanes; ++i)
+        if (!(std::abs(data.force[i]) <= round_off * modulus)) return false;
+    for (Grain<Dim>* grain : members_[b])
+        grain->surface.speed = 0;
+    return true;
 }
 
 template <int Dim> Assembly<Dim>::~Assembly()
@@ -161,6 +207,9 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
         const auto& kernels = motion_kernels<Dim>();
+        asleep_[b] &= std::all_of(members_[b].begin(), members_[b].end(),
+                                  [&](const Grain<Dim>* grain) { return is_left_alone(*grain, gravity); });
+        if (asleep_[b]) continue;
         if (std::any_of(members_[b].begin(), members_[b].end(),
                         [](const Grain<Dim>* grain) { return grain->surface.wanted; }))
             kernels.velocities[batch.wide()](batch.data(), batch.extent.data());
@@ -209,6 +258,8 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
             if (before) before(*grain);
             struck |= grain->surface.struck;
         }
+        asleep_[b] &= !struck;
+        if (asleep_[b]) continue;
         const auto& kernels = motion_kernels<Dim>();
         if (struck) {
             std::fill_n(values, size_t(Dim) * batch.mesh->surface_count() * lanes, 0);
@@ -254,6 +305,7 @@ template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
         motion_kernels<Dim>().velocities[batch.wide()](batch.data(), batch.extent.data());
         least_J_[b] = 1;
+        asleep_[b] = false;
         for (size_t lane = 0; lane < members_[b].size(); ++lane)
             least_J_[b] = std::min(least_J_[b], members_[b][lane]->min_J = batch.per_lane[lane]);
         sound[b] = observe(b, dt, after);

@@ -6,6 +6,7 @@
 //     u' = u + dt v'                     correct
 //
 // Total-Lagrangian grains advance in batches; updated-Lagrangian ones (Grain::updated) one by one, on grids of their own.
+// A batch of grains at rest, undeformed, costs nothing until a load, an impulse or a velocity given by hand wakes it.
 #pragma once
 
 #include "solver/contact_problem.hpp"
@@ -58,6 +59,8 @@ public:
     const std::vector<Grain<Dim>*>& members(int b) const { return members_[b]; }
 
 private:
+    void put_in_batches(std::vector<Grain<Dim>*> group);
+    bool is_at_rest(int b);
     bool observe(int b, double dt, const Visit& after);
     void hand_out(int b, std::vector<double> Surface<Dim>::*field);
     void report_unsound(const std::vector<char>& sound, double dt);
@@ -67,6 +70,7 @@ private:
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
     std::vector<Grain<Dim>*> updated_;              ///< updated-Lagrangian ones, which no batch holds
     std::vector<double> least_J_;                   ///< of each batch, then of each updated-Lagrangian grain
+    std::vector<char> asleep_;                      ///< of each batch: at rest since it is here
 };
 
 extern template class Assembly<2>;
