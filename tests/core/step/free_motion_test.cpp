@@ -183,6 +183,45 @@ TEST(FreeFlight, BringsSurfacesOnDemand)
     }
 }
 
+// What rests stays as it is, to the bit, until a force, a torque, gravity, a velocity or an impulse sets it in motion.
+TEST(FreeFlight, RestsUntilSomethingWakesIt)
+{
+    using Wake = void (*)(World&);
+    const std::vector<std::pair<const char*, Wake>> ways {
+        { "force", [](World& world) { world.grains[1].acceleration = Vec<2>(1, 0); } },
+        { "torque", [](World& world) { world.grains[1].spin_acceleration = spin(1e3); } },
+        { "gravity", [](World& world) { world.gravity = Vec<2>(0, -9.81); } },
+        { "velocity", [](World& world) { world.grains[1].add_velocity(Vec<2>(1, 0), Mat<2>::Zero()); } },
+        { "impulse", [](World& world) { world.planes[0].position = world.grains[0].surface.min.x() + 1e-6; } },
+    };
+    for (int count : { 2, 9 })
+        for (const auto& [name, wake] : ways) {
+            World world;
+            world.planes = { { 0, 1, -1, 0 } }; // far away
+            const auto mesh = disc_mesh(124);
+            for (int g = 0; g < count; ++g) {
+                GrainStart start;
+                start.centre = Vec<2>(0.01 * g, 0.005);
+                start.angle = g;
+                world.add(make_grain(mesh, neo_hookean(), start));
+            }
+            const auto nodes = [&world](int g) {
+                world.grains[size_t(g)].pull();
+                return world.grains[size_t(g)].displacement;
+            };
+            const int woken = std::string(name) == "impulse" ? 0 : 1;
+            const std::vector<double> before = nodes(woken);
+            for (int k = 0; k < 100; ++k)
+                world.step(1e-7);
+            EXPECT_EQ(nodes(woken), before) << name;
+            wake(world);
+            for (int k = 0; k < 2; ++k)
+                world.step(1e-7);
+            EXPECT_NE(nodes(woken), before) << name;
+            EXPECT_NE(world.grains[size_t(woken)].motion.kinetic, 0) << name;
+        }
+}
+
 // The guards have to hold in one lane and in many, also where the compiler may reorder arithmetic.
 TEST(FreeFlight, StopsAtAPointTurnedInsideOut)
 {
