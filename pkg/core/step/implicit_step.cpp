@@ -336,15 +336,14 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
     return true;
 }
 
-/// Goes along the search direction as far as slacks stay positive, no point inverts and the merit does not grow. False when
-/// there is no such place.
+/// Goes along the search direction as far as no point inverts and the merit does not grow; each slack goes no further than to
+/// a small share of itself, since one that waited for another would hold up all grains. False when there is no such place.
 template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
 {
     using Contact = BarrierContact<Dim>;
     constexpr int most_cuts = 6; // of a merit that may err: the direction is one of descent but for friction's bounds
     const double dual = largest_share(&Contact::force, &Contact::force_step);
-    double share = std::min(largest_share(&Contact::slack, &Contact::slack_step),
-                            ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
+    double share = std::min(1.0, ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
     const double before = merit(place_.potential), noise = 1e-9 * (std::abs(before) + 1e-3 * least_force_);
     const std::vector<Contact> start = contacts;
     int cuts = 0;
@@ -352,7 +351,8 @@ template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
         place_ = grains_.evaluate(share);
         if (place_.sound) {
             for (auto& contact : contacts)
-                contact.slack += share * contact.slack_step;
+                contact.slack
+                    = std::max(contact.slack + share * contact.slack_step, (1 - fraction_to_boundary) * contact.slack);
             locate();
             if (merit(place_.potential) < before + noise || cuts > most_cuts) break;
         }
