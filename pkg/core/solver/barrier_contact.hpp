@@ -6,6 +6,9 @@
 
 namespace softgrain {
 
+/// Surface values of all bodies, [body][point][Dim].
+using SurfaceField = std::vector<std::vector<double>>;
+
 /// A contact of an implicit step: what the narrow phase found near, at the places that the step tries, and the unknowns of
 /// the interior-point method. Forces act on the point along +normal and +tangent, against them on the face.
 template <int Dim> struct BarrierContact {
@@ -38,14 +41,30 @@ template <int Dim> struct BarrierContact {
     int size_of_problem() const { return friction > 0 ? Dim : 1; }
 };
 
-/// Value of a surface field, [body][point][Dim], at a contact: that of the point less that of the face.
-template <int Dim> Vec<Dim> difference(const BarrierContact<Dim>& contact, const std::vector<std::vector<double>>& field)
+template <int Dim> Eigen::Map<const Vec<Dim>> value_at(const SurfaceField& field, int body, int point)
 {
-    const auto at = [&](int body, int p) { return Eigen::Map<const Vec<Dim>>(&field[size_t(body)][size_t(Dim) * p]); };
-    Vec<Dim> value = at(contact.body, contact.point);
+    return Eigen::Map<const Vec<Dim>>(&field[size_t(body)][size_t(Dim) * point]);
+}
+template <int Dim> Eigen::Map<Vec<Dim>> value_at(SurfaceField& field, int body, int point)
+{
+    return Eigen::Map<Vec<Dim>>(&field[size_t(body)][size_t(Dim) * point]);
+}
+
+/// Value of a surface field at a contact: that of the point less that of the face.
+template <int Dim> Vec<Dim> difference(const BarrierContact<Dim>& contact, const SurfaceField& field)
+{
+    Vec<Dim> value = value_at<Dim>(field, contact.body, contact.point);
     for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
-        value -= contact.weight[k] * at(contact.other, contact.vertex[k]);
+        value -= contact.weight[k] * value_at<Dim>(field, contact.other, contact.vertex[k]);
     return value;
+}
+
+/// Adds a force on the point, and against it on the face.
+template <int Dim> void add_force(const BarrierContact<Dim>& contact, const Vec<Dim>& force, SurfaceField& field)
+{
+    value_at<Dim>(field, contact.body, contact.point) += force;
+    for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
+        value_at<Dim>(field, contact.other, contact.vertex[k]) -= contact.weight[k] * force;
 }
 
 } // namespace softgrain
