@@ -263,12 +263,23 @@ template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
     return true;
 }
 
+template <int Dim> void ImplicitStep<Dim>::choose_hold(const Outcome& outcome)
+{
+    constexpr double least = 0.01;
+    constexpr int many = 10;
+    if (outcome.stages > 1)
+        hold = std::max(least, hold / 2);
+    else if (outcome.iterations > many)
+        hold = std::min(1.0, 2 * hold);
+}
+
 template <int Dim>
 typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const ImplicitSettings& settings,
                                                                const Vec<Dim>& gravity, ImplicitScene<Dim>& scene)
 {
     scene_ = &scene;
     settings_ = settings;
+    settings_.regularisation *= hold;
     damping_ = 0;
     factor_age_ = 0;
     begin(dt, gravity);
@@ -285,12 +296,13 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
         if (touching && outcome.unbalanced < settings.tolerance
             && (!settings.quasistatic || free || outcome.stages >= settings.most_stages)) {
             outcome.converged = true;
+            if (settings.quasistatic) choose_hold(outcome);
             outcome.dissipated = grains_.accept();
             fill_problem(dt);
             return outcome;
         }
         if (settings.quasistatic && touching && !free && outcome.stages < settings.most_stages
-            && outcome.unbalanced < std::max(settings.tolerance, 0.1 * outcome.held)) {
+            && outcome.unbalanced < std::max(settings.tolerance, 0.5 * outcome.held)) {
             grains_.recentre();
             place_ = grains_.evaluate(0);
             held = contacts;
@@ -309,6 +321,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             + shown(outcome.residual, 2) + ", penetration " + shown(outcome.penetration, 2) + " radii)";
         if (!settings.quasistatic || ++firmer > most_firmer) break;
         grains_.back_to_centre();
+        hold = std::min(1.0, 4 * hold);
         place_ = grains_.evaluate(0);
         contacts = held;
         renew_contacts(dt);

@@ -51,11 +51,15 @@ public:
     /// contact forces, and velocities and start values for `Assembly::renew` are set.
     Outcome attempt(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity, ImplicitScene<Dim>& scene);
 
+    /// Quasi-static: share of the regularisation that the next step begins with. Smaller after a step whose grains were held
+    /// too firmly to be in balance at once, larger after one that took many iterations.
+    double hold = 1;
     std::vector<BarrierContact<Dim>> contacts;
     /// The contacts as a problem for ContactProblem::residual and Assembly::account.
     ContactProblem<Dim> problem;
 
 private:
+    void choose_hold(const Outcome& outcome);
     void begin(double dt, const Vec<Dim>& gravity);
     void locate();
     void look_or_locate(double dt);
