@@ -25,6 +25,7 @@ ImplicitStep<Dim>::ImplicitStep(Assembly<Dim>& assembly)
         shear_modulus_ = std::max(shear_modulus_, modulus);
         least_force_ = std::max(least_force_, 1e-4 * modulus * grain->radius);
     }
+    least_force_ *= std::sqrt(double(assembly.grains().size())); // norms of forces are those of all grains
 }
 
 /// Feet, normals, gaps and slides at the grains' places.

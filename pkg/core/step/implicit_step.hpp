@@ -99,7 +99,7 @@ private:
     double kappa_ = 0, damping_ = 0;
     int factor_age_ = 0;       ///< iterations that the factors have served
     double shear_modulus_ = 0; ///< the largest of a grain [Pa]
-    double least_force_ = 0;   ///< forces below count as none: 1e-4 shear moduli times radius [N]
+    double least_force_ = 0;   ///< forces below count as none: 1e-4 shear moduli times radius a grain [N]
 };
 
 extern template class ImplicitStep<2>;
