@@ -69,15 +69,15 @@ public:
     /// Search direction K^-1 of the load and, when given, further surface forces; the way of the surfaces along it [m].
     void solve(SurfaceField& way, const SurfaceField* further = nullptr);
 
-    /// The tools of conjugate gradients with the whole second derivative of the potential, H, K being what is easy to solve
-    /// with. H x is a difference of internal forces; what contact forces change along a way comes as surface forces.
+    /// The tools of conjugate gradients with the whole second derivative of the potential, A, K being what is easy to solve
+    /// with. A x is a difference of internal forces; what contact forces change along a way comes as surface forces.
     /// Residual of the search direction under these surface forces, and their work with the direction [J].
     double begin_conjugate(const SurfaceField& forces);
     /// y = K^-1 of the residual and, when given, further surface forces; its way; returns y . residual [J].
     double precondition(SurfaceField& way, const SurfaceField* further = nullptr);
     /// p <- y + share p
     void turn_conjugate(double share);
-    /// H p less these surface forces; returns p . of it [J].
+    /// A p less these surface forces; returns p . of it [J].
     double curvature(const SurfaceField& forces);
     /// Search direction and residual a share of p further.
     void go_conjugate(double share);

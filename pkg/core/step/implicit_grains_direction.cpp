@@ -125,7 +125,7 @@ template <int Dim> double ImplicitGrains<Dim>::dot(const Part& part, const Align
     return sum;
 }
 
-/// product <- H x without contact forces, as a difference of internal forces.
+/// product <- A x without contact forces, as a difference of internal forces.
 template <int Dim> void ImplicitGrains<Dim>::multiply(Part& part, const AlignedVector& x)
 {
     constexpr double small = 1e-6; // displacement [radius]

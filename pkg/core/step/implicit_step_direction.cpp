@@ -128,7 +128,7 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
 }
 
 /// The direction so far solves Newton's equations with K, the stiffness of grains made positive definite, in place of the
-/// whole second derivative H, which knows of pressures, of the turning of contacts and of the present place. Conjugate
+/// whole second derivative A, which knows of pressures, of the turning of contacts and of the present place. Conjugate
 /// gradients with K and the contact system as the preconditioner make up for it; all their iterates keep the equations of the
 /// contacts (Gould, Hribar and Nocedal 2001). They end when the direction is good to a tenth, in the norm of K and contacts,
 /// or where the potential hardly curves upwards.
