@@ -13,13 +13,15 @@ void ImplicitGrains<Dim>::add_surface_forces(const Part& part, const SurfaceFiel
 {
     constexpr int most_lanes = 8;
     const int lanes = part.batch->lanes;
+    double unit[most_lanes];
+    for (size_t lane = 0; lane < part.members->size(); ++lane)
+        unit[lane] = share * std::pow((*part.members)[lane]->radius, 1 - Dim);
     for (int p = 0; p < part.batch->mesh->surface_count(); ++p) {
         double force[Dim][most_lanes] = {};
         bool any = false;
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const double unit = share * std::pow((*part.members)[lane]->radius, 1 - Dim);
             for (int d = 0; d < Dim; ++d) {
-                force[d][lane] = unit * forces[part.index[lane]][size_t(Dim) * p + d];
+                force[d][lane] = unit[lane] * forces[part.index[lane]][size_t(Dim) * p + d];
                 any |= force[d][lane] != 0;
             }
         }
