@@ -5,13 +5,17 @@
 #include <cmath>
 
 namespace softgrain {
+namespace {
+
+    constexpr int most_lanes = 8;
+
+} // namespace
 
 /// Adds a share of surface forces [N] to rows.
 template <int Dim>
 void ImplicitGrains<Dim>::add_surface_forces(const Part& part, const SurfaceField& forces, double share,
                                              AlignedVector& rows) const
 {
-    constexpr int most_lanes = 8;
     const int lanes = part.batch->lanes;
     double unit[most_lanes];
     for (size_t lane = 0; lane < part.members->size(); ++lane)
@@ -37,7 +41,6 @@ void ImplicitGrains<Dim>::add_surface_forces(const Part& part, const SurfaceFiel
 /// Way of the surfaces under a displacement of rows, and the longest over its radius.
 template <int Dim> void ImplicitGrains<Dim>::interpolate(Part& part, const AlignedVector& rows, SurfaceField& way) const
 {
-    constexpr int most_lanes = 8;
     const int lanes = part.batch->lanes;
     part.farthest = 0;
     for (int p = 0; p < part.batch->mesh->surface_count(); ++p) {
@@ -117,13 +120,14 @@ template <int Dim> template <class Work> double ImplicitGrains<Dim>::sum_over_pa
 /// Product of two vectors of rows, a force and a displacement [J].
 template <int Dim> double ImplicitGrains<Dim>::dot(const Part& part, const AlignedVector& a, const AlignedVector& b)
 {
+    double of_lane[most_lanes] = {};
+    const size_t lanes = size_t(part.batch->lanes);
+    for (size_t k = 0; k < a.size(); k += lanes)
+        for (size_t lane = 0; lane < lanes; ++lane)
+            of_lane[lane] += a[k + lane] * b[k + lane];
     double sum = 0;
-    for (size_t lane = 0; lane < part.members->size(); ++lane) {
-        double own = 0;
-        for (size_t k = lane; k < a.size(); k += size_t(part.batch->lanes))
-            own += a[k] * b[k];
-        sum += own * std::pow((*part.members)[lane]->radius, Dim);
-    }
+    for (size_t lane = 0; lane < part.members->size(); ++lane)
+        sum += of_lane[lane] * std::pow((*part.members)[lane]->radius, Dim);
     return sum;
 }
 
@@ -136,7 +140,7 @@ template <int Dim> void ImplicitGrains<Dim>::multiply(Part& part, const AlignedV
     double largest = 1e-300;
     for (double value : x)
         largest = std::max(largest, std::abs(value));
-    const double scale = small / largest;
+    const double scale = small / largest, inverse = largest / small;
     for (int r = 0; r < part.pattern->rows; ++r) {
         const size_t node = size_t(part.pattern->master[r]) * width, row = size_t(r) * width;
         for (size_t i = 0; i < width; ++i)
@@ -148,9 +152,12 @@ template <int Dim> void ImplicitGrains<Dim>::multiply(Part& part, const AlignedV
     for (int r = 0; r < part.pattern->rows; ++r) {
         const size_t node = size_t(part.pattern->master[r]) * width, row = size_t(r) * width;
         const double mass = batch.mesh->node_mass[part.pattern->master[r]];
-        for (size_t i = 0; i < width; ++i)
-            part.product[row + i] = (part.internal[row + i] - data.force[node + i]) / scale
-                + mass * part.held[i % size_t(batch.lanes)] * x[row + i];
+        for (size_t d = 0; d < width; d += size_t(batch.lanes))
+            for (size_t lane = 0; lane < size_t(batch.lanes); ++lane) {
+                const size_t i = d + lane;
+                part.product[row + i]
+                    = (part.internal[row + i] - data.force[node + i]) * inverse + mass * part.held[lane] * x[row + i];
+            }
     }
 }
 
