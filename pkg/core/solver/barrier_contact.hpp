@@ -30,7 +30,8 @@ template <int Dim> struct BarrierContact {
     double slack = 0;                                 ///< stands for the gap, above 0 [m]
     double force = 0, shear = 0;                      ///< normal and tangential [N] (N/m in 2D)
     double slack_step = 0, force_step = 0, shear_step = 0; ///< of an iteration
-    double compliance = 0;                                 ///< of the two bodies along the normal [m/N]
+    bool aloof = false;    ///< stands off so far that its force counts for nothing in the linear system
+    double compliance = 0; ///< of the two bodies along the normal [m/N]
 
     Vec<Dim> tangent() const
     {
@@ -38,7 +39,7 @@ template <int Dim> struct BarrierContact {
         return Vec<Dim>(-normal.y(), normal.x());
     }
     Vec<Dim> total() const { return force * normal + shear * tangent(); }
-    int size_of_problem() const { return friction > 0 ? Dim : 1; }
+    int size_of_problem() const { return aloof ? 0 : friction > 0 ? Dim : 1; }
 };
 
 template <int Dim> Eigen::Map<const Vec<Dim>> value_at(const SurfaceField& field, int body, int point)

@@ -72,9 +72,10 @@ template <int Dim> void ImplicitStep<Dim>::start_values()
         }
     }
     missed = std::clamp(0.3 * missed, 1e-4 * size, ahead * size);
-    double rigid = 1e300; // stiffness of the most mobile contact
+    double mobile = 0; // compliance of the most mobile contact
     for (const auto& contact : contacts)
-        rigid = std::min(rigid, 1 / contact.compliance);
+        mobile = std::max(mobile, contact.compliance);
+    const double rigid = mobile > 0 ? 1 / mobile : shear_modulus_;
     kappa_ = missed * std::max(loaded ? force / loaded : 0, rigid * missed);
     for (auto& contact : contacts) {
         const double before = contact.force > 0 ? std::min(kappa_ / contact.force, 10 * missed) : missed;
@@ -105,7 +106,7 @@ template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
         contact.shear = found != known.end() ? found->second->shear : 0;
         contact.compliance = found != known.end() ? found->second->compliance : 0;
     }
-    system_.analyse(contacts, int(scene_->bodies.size()));
+    sorted_ = false;
 }
 
 /// Potential with barriers, friction at the present bounds, and the price of gaps that are not their slacks.
@@ -169,8 +170,6 @@ template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& grav
             (*field)[b].assign(size_t(Dim) * scene_->bodies[b]->count, 0);
     }
     grains_.begin(dt, settings_, gravity, [&](const Vec<Dim>& x) { return scene_->prediction(x, dt); });
-    system_.analyse(contacts, int(scene_->bodies.size()));
-
     using Start = typename ImplicitGrains<Dim>::Start;
     constexpr double too_far = 0.5; // radii
     double least = 1e300;
@@ -194,6 +193,9 @@ template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& grav
     place_ = grains_.evaluate(1);
     grains_.settle();
     look_or_locate(dt);
+    sorted_ = false;
+    for (auto& contact : contacts)
+        contact.slack = contact.gap;
 }
 
 template <int Dim> void ImplicitStep<Dim>::clear(SurfaceField& field)
@@ -358,7 +360,7 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
         contact.law = nullptr;
         // points that stand off bear no force but what the barrier leaves
         contact.impulse = from.force > stiffness * from.gap ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
-        contact.inertia = length * dt / from.compliance;
+        contact.inertia = length * dt * (from.compliance > 0 ? 1 / from.compliance : stiffness);
         const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
         contact.gap_speed = from.gap / dt - rate;
         problem.contacts.push_back(contact);

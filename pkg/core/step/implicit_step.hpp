@@ -65,6 +65,7 @@ private:
     void look_or_locate(double dt);
     void renew_contacts(double dt);
     void start_values();
+    void sort_contacts();
     void condense();
     typename ImplicitGrains<Dim>::Forces judge(Outcome& outcome);
     bool find_direction(const Outcome& outcome);
@@ -97,6 +98,7 @@ private:
     /// Of the contact system: way along normals and tangents without changes of forces, and the one wished for.
     Eigen::VectorXd free_, target_;
     double kappa_ = 0, damping_ = 0;
+    bool sorted_ = false;      ///< contacts into those that count in the linear system and those that stand off
     int factor_age_ = 0;       ///< iterations that the factors have served
     double shear_modulus_ = 0; ///< the largest of a grain [Pa]
     double least_force_ = 0;   ///< forces below count as none: 1e-4 shear moduli times radius a grain [N]

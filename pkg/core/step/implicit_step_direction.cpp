@@ -7,6 +7,27 @@
 
 namespace softgrain {
 
+/// Says which contacts count in the linear system. One that comes near does at once; those that stand off are left out when
+/// they are many, since the system is then analysed anew.
+template <int Dim> void ImplicitStep<Dim>::sort_contacts()
+{
+    const auto stands_off = [&](const BarrierContact<Dim>& contact) {
+        return contact.slack > 0.3 * ahead * contact.size && contact.force < 0.05 * shear_modulus_ * contact.slack;
+    };
+    int idle = 0, counted = 0;
+    for (auto& contact : contacts) {
+        const bool off = stands_off(contact);
+        contact.aloof &= off;
+        counted += !contact.aloof;
+        idle += off && !contact.aloof;
+    }
+    if (!sorted_ || 4 * idle > counted)
+        for (auto& contact : contacts)
+            contact.aloof = stands_off(contact);
+    sorted_ = true;
+    system_.analyse(contacts, int(scene_->bodies.size()));
+}
+
 /// Stiffnesses, and the contact system without its diagonal. Pressure stiffens the search direction of a grain where full
 /// steps have failed. Factors serve several iterations: what they are off by is made up for by conjugate gradients.
 template <int Dim> void ImplicitStep<Dim>::condense()
@@ -21,6 +42,7 @@ template <int Dim> void ImplicitStep<Dim>::condense()
     const bool anew = factor_age_ == 0;
     grains_.condense(damping, anew);
     factor_age_ = (factor_age_ + 1) % most_uses_of_factors;
+    sort_contacts();
     auto compliance = grains_.compliance();
     compliance.resize(scene_->bodies.size(), nullptr);
     system_.assemble(contacts, compliance, points_);
@@ -31,6 +53,7 @@ template <int Dim> Eigen::VectorXd ImplicitStep<Dim>::at_contacts(const SurfaceF
 {
     Eigen::VectorXd rows(system_.rows());
     for (size_t c = 0; c < contacts.size(); ++c) {
+        if (contacts[c].aloof) continue;
         const Vec<Dim> apart = difference(contacts[c], way);
         const int row = system_.row(int(c));
         rows[row] = contacts[c].normal.dot(apart);
@@ -44,6 +67,7 @@ template <int Dim> SurfaceField& ImplicitStep<Dim>::at_surfaces(const Eigen::Vec
 {
     clear(forces_);
     for (size_t c = 0; c < contacts.size(); ++c) {
+        if (contacts[c].aloof) continue;
         const int row = system_.row(int(c));
         Vec<Dim> force = rows[row] * contacts[c].normal;
         if (contacts[c].friction > 0) force += rows[row + 1] * contacts[c].tangent();
@@ -59,6 +83,8 @@ template <int Dim> Eigen::VectorXd ImplicitStep<Dim>::solve_contacts(double kapp
     for (size_t c = 0; c < contacts.size(); ++c) {
         auto& contact = contacts[c];
         const int row = system_.row(int(c));
+        contact.force_step = contact.shear_step = contact.slack_step = 0;
+        if (contact.aloof) continue;
         contact.slack_step = (kappa - correction[Eigen::Index(c)]) / contact.force - contact.slack;
         target_[row] = contact.slack + contact.slack_step - contact.gap;
         if (contact.friction > 0) {
@@ -66,7 +92,6 @@ template <int Dim> Eigen::VectorXd ImplicitStep<Dim>::solve_contacts(double kapp
             const double slope = SmoothedFriction::slope_for(contact.shear, contact.slide, bound, kappa_);
             target_[row + 1] = (-SmoothedFriction(contact.slide, bound, kappa_).force - contact.shear) / slope;
         }
-        contact.force_step = contact.shear_step = 0;
     }
     const Eigen::VectorXd change = system_.solve(target_ - free_);
     change_forces(change);
@@ -78,6 +103,7 @@ template <int Dim> void ImplicitStep<Dim>::change_forces(const Eigen::VectorXd& 
 {
     for (size_t c = 0; c < contacts.size(); ++c) {
         auto& contact = contacts[c];
+        if (contact.aloof) continue;
         const int row = system_.row(int(c));
         contact.force_step += by[row];
         contact.slack_step -= contact.slack * by[row] / contact.force;
@@ -93,9 +119,10 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
     target_.resize(system_.rows());
     grains_.solve(moved_);
     free_ = at_contacts(moved_);
-    if (!contacts.empty()) {
+    if (system_.rows() > 0) {
         for (size_t c = 0; c < contacts.size(); ++c) {
             const auto& contact = contacts[c];
+            if (contact.aloof) continue;
             const int row = system_.row(int(c));
             diagonal[row] = contact.slack / contact.force;
             if (contact.friction == 0) continue;
@@ -109,14 +136,18 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
         const double primal = largest_share(&Contact::slack, &Contact::slack_step),
                      dual = largest_share(&Contact::force, &Contact::force_step);
         double now = 0, then = 0, floor = 0;
+        int counted = 0;
         for (size_t c = 0; c < contacts.size(); ++c) {
             const auto& contact = contacts[c];
-            now += contact.slack * contact.force / double(contacts.size());
-            then += (contact.slack + primal * contact.slack_step) * (contact.force + dual * contact.force_step)
-                / double(contacts.size());
-            floor += contact.force * contact.size / double(contacts.size());
+            if (contact.aloof) continue;
+            ++counted;
+            now += contact.slack * contact.force;
+            then += (contact.slack + primal * contact.slack_step) * (contact.force + dual * contact.force_step);
+            floor += contact.force * contact.size;
             correction[Eigen::Index(c)] = primal * dual * contact.slack_step * contact.force_step;
         }
+        for (double* sum : { &now, &then, &floor })
+            *sum /= counted;
         floor *= settings_.tolerance * (outcome.residual > 0.5 * settings_.tolerance ? 1e-6 : 1e-3);
         kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), 1e-2, 1.0));
         change = solve_contacts(kappa_, correction);
@@ -124,6 +155,11 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
     grains_.solve(moved_, &at_surfaces(change));
     refine(change);
     grains_.take_direction(moved_);
+    for (auto& contact : contacts)
+        if (contact.aloof) {
+            contact.slack_step = contact.gap - contact.slack + contact.normal.dot(difference(contact, moved_));
+            contact.force_step = (kappa_ - contact.force * contact.slack_step) / contact.slack - contact.force;
+        }
     return true;
 }
 
@@ -144,7 +180,7 @@ template <int Dim> void ImplicitStep<Dim>::refine(const Eigen::VectorXd& change)
     double before = 1, stiff = 0;
     for (int k = 0; k < most; ++k) {
         grains_.precondition(moved_);
-        const Eigen::VectorXd forces = contacts.empty() ? total : Eigen::VectorXd(system_.solve(-at_contacts(moved_)));
+        const Eigen::VectorXd forces = system_.rows() == 0 ? total : Eigen::VectorXd(system_.solve(-at_contacts(moved_)));
         const double now = grains_.precondition(moved_, &at_surfaces(forces)), share = k == 0 ? 0 : now / before;
         if (!(now > good * good * size)) break;
         before = now;
