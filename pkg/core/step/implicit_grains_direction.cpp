@@ -134,7 +134,7 @@ template <int Dim> double ImplicitGrains<Dim>::dot(const Part& part, const Align
 /// product <- A x without contact forces, as a difference of internal forces.
 template <int Dim> void ImplicitGrains<Dim>::multiply(Part& part, const AlignedVector& x)
 {
-    constexpr double small = 1e-6; // displacement [radius]
+    constexpr double small = 1e-8; // displacement [radius]: squared it has to be small to lambda / mu = 1e4 too
     Batch<Dim>& batch = *part.batch;
     const size_t width = size_t(Dim) * batch.lanes;
     double largest = 1e-300;

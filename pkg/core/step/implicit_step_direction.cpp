@@ -148,7 +148,9 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
         }
         for (double* sum : { &now, &then, &floor })
             *sum /= counted;
-        floor *= settings_.tolerance * (outcome.residual > 0.5 * settings_.tolerance ? 1e-6 : 1e-3);
+        // once low enough kappa need not fall further; it must not rise again either, or the two would take turns
+        const double low = 1e-6 * settings_.tolerance * floor;
+        floor = outcome.residual > 0.5 * settings_.tolerance ? low : std::clamp(kappa_, low, 1e3 * low);
         kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), 1e-2, 1.0));
         change = solve_contacts(kappa_, correction);
     }
