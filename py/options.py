@@ -16,7 +16,7 @@ from .checks import InputError
 MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds", "at_once", "figures"}
 
 MOST_THREADS = 16    # a core
-STEPS_OF_AN_IMPLICIT_ONE = 1000    # explicit steps that cost as much as an implicit one, about
+STEPS_OF_AN_IMPLICIT_ONE = 300    # explicit steps that cost as much as an implicit one, about
 
 # What argparse takes for a value and not for an option; its own pattern leaves out -1e6.
 NEGATIVE_NUMBER = re.compile(r"^-((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf)$")

@@ -40,6 +40,7 @@ void SoftImplicitIntegrator::advance(double dt)
     settings.threads = threads();
     seen_.begin(*scene, dt, wallsAhead(), [this] { search(); });
     run_->substep = substep;
+    run_->step.hold = hold;
     run_->advance(dt, settings, gravity.head<2>(), seen_, [&](double h, const softgrain::ImplicitStep<2>::Outcome&) {
         const double weight = (quasistatic ? 1 : theta) * h;
         take(h, weight / dt);
@@ -50,6 +51,7 @@ void SoftImplicitIntegrator::advance(double dt)
     pairs_.deepest = run_->report.penetration;
     fresh_ = false;
     substep = run_->substep;
+    hold = run_->step.hold;
     iterations = run_->report.iterations;
     totalIterations += iterations;
     substeps = run_->report.substeps;
@@ -140,6 +142,7 @@ void SoftImplicitIntegrator::requireSaneAttributes() const
     };
     demand(theta >= 0.5 && theta <= 1, "theta", theta, "lie between 0.5 and 1");
     demand(regularisation > 0 && std::isfinite(regularisation), "regularisation", regularisation, "be positive and finite");
+    demand(hold > 0 && hold <= 1, "hold", hold, "lie above 0 and not above 1");
     demand(maxIterations > 0, "maxIterations", maxIterations, "be 1 or more");
     demand(scene->dt > 0 && std::isfinite(scene->dt), "O.dt", scene->dt, "be positive and finite");
 }

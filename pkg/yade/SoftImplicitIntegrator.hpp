@@ -28,6 +28,7 @@ public:
                      0.02,
                      ,
                      "Quasi-static: stiffness per area that holds grains while an equilibrium is sought [shear modulus]. It fades where there is one."))(
+                    (Real, hold, 1, , "Quasi-static: share of regularisation that the next step begins with; steps choose it [-]."))(
                     (int, maxIterations, 60, , "Most iterations of Newton's method until a step is cut [-]."))(
                     (Real, substep, 0, , "Length of the substep to be tried next [s]; 0: O.dt."))(
                     (int, substeps, 0, Attr::readonly, "Substeps of the last step [-]."))(

@@ -44,11 +44,12 @@ namespace {
 
         Vec<2> at(double t) const { return x[1] + t * (c + t * (b + t * a)); }
         Vec<2> tangent(double t) const { return c + t * (2 * b + t * 3 * a); }
+        Vec<2> second(double t) const { return 2 * b + 6 * t * a; }
         /// A Newton step towards the foot of p, (p - x(t)) . x'(t) = 0.
         double step(const Vec<2>& p, double t) const
         {
             const Vec<2> apart = p - at(t), along = tangent(t);
-            const double slope = along.squaredNorm() - apart.dot(2 * b + 6 * t * a);
+            const double slope = along.squaredNorm() - apart.dot(second(t));
             // beyond the centre of curvature the foot is far away; the chord's slope brings it near
             return apart.dot(along) / std::max(slope, 0.2 * along.squaredNorm());
         }
@@ -62,9 +63,28 @@ namespace {
             weight[2] += h01;
             return weight;
         }
+        /// Change of the weights with t.
+        std::array<double, 4> slope(double t) const
+        {
+            const double h10 = (1 - t) * (1 - 3 * t), h11 = t * (3 * t - 2), h01 = 6 * t * (1 - t);
+            std::array<double, 4> slope;
+            for (int k = 0; k < 4; ++k)
+                slope[k] = h10 * start[k] + h11 * end[k];
+            slope[1] -= h01;
+            slope[2] += h01;
+            return slope;
+        }
     };
 
 } // namespace
+
+Bend bend_at(const Surface<2>& polyline, int segment, double t)
+{
+    const Segment here(polyline, segment);
+    const Vec<2> along = here.tangent(t);
+    const double length = along.norm();
+    return { here.slope(t), length, outward(along).dot(here.second(t)) / length };
+}
 
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
 {

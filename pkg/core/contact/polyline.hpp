@@ -28,6 +28,14 @@ struct Projection {
 /// there is none, at a convex corner, the vertex is the foot.
 Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, double t);
 
+/// How an outline goes on at a place of a segment.
+struct Bend {
+    std::array<double, 4> slope; ///< change of the weights of the vertices with t
+    double length;               ///< |dx/dt| [m]
+    double second;               ///< d2x/dt2 along the outward normal [m]
+};
+Bend bend_at(const Surface<2>& polyline, int segment, double t);
+
 /// The segment nearest to x, by looking at all of them.
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x);
 

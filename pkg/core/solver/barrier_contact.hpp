@@ -6,6 +6,9 @@
 
 namespace softgrain {
 
+/// Surface values of all bodies, [body][point][Dim].
+using SurfaceField = std::vector<std::vector<double>>;
+
 /// A contact of an implicit step: what the narrow phase found near, at the places that the step tries, and the unknowns of
 /// the interior-point method. Forces act on the point along +normal and +tangent, against them on the face.
 template <int Dim> struct BarrierContact {
@@ -27,7 +30,8 @@ template <int Dim> struct BarrierContact {
     double slack = 0;                                 ///< stands for the gap, above 0 [m]
     double force = 0, shear = 0;                      ///< normal and tangential [N] (N/m in 2D)
     double slack_step = 0, force_step = 0, shear_step = 0; ///< of an iteration
-    double compliance = 0;                                 ///< of the two bodies along the normal [m/N]
+    bool aloof = false;    ///< stands off so far that its force counts for nothing in the linear system
+    double compliance = 0; ///< of the two bodies along the normal [m/N]
 
     Vec<Dim> tangent() const
     {
@@ -35,17 +39,33 @@ template <int Dim> struct BarrierContact {
         return Vec<Dim>(-normal.y(), normal.x());
     }
     Vec<Dim> total() const { return force * normal + shear * tangent(); }
-    int size_of_problem() const { return friction > 0 ? Dim : 1; }
+    int size_of_problem() const { return aloof ? 0 : friction > 0 ? Dim : 1; }
 };
 
-/// Value of a surface field, [body][point][Dim], at a contact: that of the point less that of the face.
-template <int Dim> Vec<Dim> difference(const BarrierContact<Dim>& contact, const std::vector<std::vector<double>>& field)
+template <int Dim> Eigen::Map<const Vec<Dim>> value_at(const SurfaceField& field, int body, int point)
 {
-    const auto at = [&](int body, int p) { return Eigen::Map<const Vec<Dim>>(&field[size_t(body)][size_t(Dim) * p]); };
-    Vec<Dim> value = at(contact.body, contact.point);
+    return Eigen::Map<const Vec<Dim>>(&field[size_t(body)][size_t(Dim) * point]);
+}
+template <int Dim> Eigen::Map<Vec<Dim>> value_at(SurfaceField& field, int body, int point)
+{
+    return Eigen::Map<Vec<Dim>>(&field[size_t(body)][size_t(Dim) * point]);
+}
+
+/// Value of a surface field at a contact: that of the point less that of the face.
+template <int Dim> Vec<Dim> difference(const BarrierContact<Dim>& contact, const SurfaceField& field)
+{
+    Vec<Dim> value = value_at<Dim>(field, contact.body, contact.point);
     for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
-        value -= contact.weight[k] * at(contact.other, contact.vertex[k]);
+        value -= contact.weight[k] * value_at<Dim>(field, contact.other, contact.vertex[k]);
     return value;
+}
+
+/// Adds a force on the point, and against it on the face.
+template <int Dim> void add_force(const BarrierContact<Dim>& contact, const Vec<Dim>& force, SurfaceField& field)
+{
+    value_at<Dim>(field, contact.body, contact.point) += force;
+    for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
+        value_at<Dim>(field, contact.other, contact.vertex[k]) -= contact.weight[k] * force;
 }
 
 } // namespace softgrain

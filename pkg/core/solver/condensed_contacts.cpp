@@ -45,8 +45,8 @@ template <int Dim> void CondensedContacts<Dim>::analyse(const std::vector<Barrie
     row_.clear();
     rows_ = 0;
     for (size_t c = 0; c < contacts.size(); ++c) {
-        sides_[size_t(contacts[c].body)].push_back({ int(c), true });
-        if (contacts[c].other >= 0) sides_[size_t(contacts[c].other)].push_back({ int(c), false });
+        if (!contacts[c].aloof) sides_[size_t(contacts[c].body)].push_back({ int(c), true });
+        if (!contacts[c].aloof && contacts[c].other >= 0) sides_[size_t(contacts[c].other)].push_back({ int(c), false });
         row_.push_back(rows_);
         rows_ += contacts[c].size_of_problem();
     }
@@ -87,7 +87,7 @@ void CondensedContacts<Dim>::assemble(std::vector<BarrierContact<Dim>>& contacts
 {
     W_.assign(size_t(matrix_.nonZeros()), 0);
     for (auto& contact : contacts)
-        contact.compliance = 0;
+        if (!contact.aloof) contact.compliance = 0;
     const int* place = place_.data();
     std::vector<double> moved; // by a unit force of a contact along each axis, [point][Dim][Dim]
     for (size_t body = 0; body < sides_.size(); ++body) {

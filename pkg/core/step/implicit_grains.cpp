@@ -29,9 +29,11 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
         part.pattern = pattern.get();
         const size_t size = size_t(Dim) * pattern->rows * batch.lanes, points = size_t(batch.mesh->surface_count());
         for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage,
-                                      &part.centre, &part.lift, &part.rhs, &part.loads })
+                                      &part.centre, &part.lift, &part.rhs, &part.loads, &part.internal, &part.direction,
+                                      &part.residual, &part.conjugate, &part.product })
             field->resize(size);
-        part.inertia.assign(size_t(batch.lanes), 1);
+        for (AlignedVector* field : { &part.inertia, &part.held, &part.factored })
+            field->assign(size_t(batch.lanes), 1);
         part.energy.resize(size_t(batch.lanes));
         part.matrix.resize(size_t(pattern->block_count()) * Dim * Dim * batch.lanes);
         part.compliance.resize(points * points * Dim * Dim * batch.lanes);
@@ -39,14 +41,6 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
             part.index.push_back(number.at(grain));
         parts_.push_back(std::move(part));
     }
-}
-
-template <int Dim> template <class Work> void ImplicitGrains<Dim>::each_part(const Work& work)
-{
-    const int count = int(parts_.size());
-#pragma omp parallel for num_threads(settings_.threads) schedule(dynamic)
-    for (int b = 0; b < count; ++b)
-        work(parts_[size_t(b)]);
 }
 
 template <int Dim>
@@ -207,15 +201,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
         Batch<Dim>& batch = *part.batch;
         const int lanes = batch.lanes;
         std::fill(part.loads.begin(), part.loads.end(), 0.0);
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const double unit = std::pow((*part.members)[lane]->radius, 1 - Dim);
-            const auto& forces = contact_forces[part.index[lane]];
-            for (int p = 0; p < batch.mesh->surface_count(); ++p)
-                for (int k = part.pattern->surface_start[p]; k < part.pattern->surface_start[p + 1]; ++k)
-                    for (int d = 0; d < Dim; ++d)
-                        part.loads[(size_t(part.pattern->surface[k].row) * Dim + d) * lanes + lane]
-                            += unit * part.pattern->surface[k].weight * forces[size_t(Dim) * p + d];
-        }
+        add_surface_forces(part, contact_forces, 1, part.loads);
         KernelData<Dim> data = batch.data();
         batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
@@ -226,6 +212,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
                     const size_t k = (size_t(i) * Dim + d) * lanes + lane, row = (size_t(r) * Dim + d) * lanes + lane;
                     const double unit = part.inertia[lane] * batch.mesh->node_mass[i];
                     const double inertia = unit * (part.centre[k] - batch.displacement[k]);
+                    part.internal[row] = data.force[k];
                     part.rhs[row] = data.force[k] + inertia + unit * part.lift[k] + part.loads[row];
                     sum.unbalanced += part.rhs[row] * part.rhs[row];
                     sum.contact += part.loads[row] * part.loads[row];
@@ -244,84 +231,6 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
         total.inertia += sum.inertia;
     }
     return { std::sqrt(total.unbalanced), std::sqrt(total.contact), std::sqrt(total.inertia), total.worst };
-}
-
-template <int Dim> void ImplicitGrains<Dim>::condense(const std::vector<double>& damping)
-{
-    each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const int lanes = batch.lanes, points = batch.mesh->surface_count();
-        thread_local AlignedVector room;
-        const size_t needed = size_t(points) * part.pattern->rows * Dim * Dim * lanes;
-        if (room.size() < needed) room.resize(needed);
-        const auto& kernels = stiffness_kernels();
-        KernelData<Dim> data = batch.data();
-        AlignedVector inertia(part.inertia);
-        for (size_t lane = 0; lane < part.members->size(); ++lane)
-            inertia[lane] += damping[part.index[lane]];
-        batch.law.stiffness[batch.wide()](data, part.pattern, inertia.data(), part.matrix.data());
-        kernels.factorise[batch.wide()](data, part.pattern, part.matrix.data());
-        kernels.compliance[batch.wide()](data, part.pattern, part.matrix.data(), room.data(), part.compliance.data());
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const double unit = std::pow((*part.members)[lane]->radius, 2 - Dim);
-            auto& own = compliance_[part.index[lane]];
-            own.resize(size_t(points) * points * Dim * Dim);
-            for (size_t k = 0; k < own.size(); ++k)
-                own[k] = unit * part.compliance[k * lanes + lane];
-            compliance_view_[part.index[lane]] = own.data();
-        }
-    });
-}
-
-template <int Dim> void ImplicitGrains<Dim>::interpolate_step(Part& part, const AlignedVector& rows, SurfaceField& way) const
-{
-    const int lanes = part.batch->lanes;
-    for (size_t lane = 0; lane < part.members->size(); ++lane) {
-        const double R = (*part.members)[lane]->radius;
-        auto& field = way[part.index[lane]];
-        std::fill(field.begin(), field.end(), 0.0);
-        double longest = 0;
-        for (int p = 0; p < part.batch->mesh->surface_count(); ++p) {
-            double length = 0;
-            for (int d = 0; d < Dim; ++d) {
-                double sum = 0;
-                for (int k = part.pattern->surface_start[p]; k < part.pattern->surface_start[p + 1]; ++k)
-                    sum += part.pattern->surface[k].weight
-                        * rows[(size_t(part.pattern->surface[k].row) * Dim + d) * lanes + lane];
-                field[size_t(Dim) * p + d] = R * sum;
-                length += sum * sum;
-            }
-            longest = std::max(longest, length);
-        }
-        part.farthest = std::max(part.farthest, std::sqrt(longest));
-    }
-}
-
-template <int Dim> void ImplicitGrains<Dim>::solve(SurfaceField& way, const SurfaceField* further)
-{
-    each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const int lanes = batch.lanes;
-        part.loads = part.rhs;
-        for (size_t lane = 0; further && lane < part.members->size(); ++lane) {
-            const double unit = std::pow((*part.members)[lane]->radius, 1 - Dim);
-            const auto& forces = (*further)[part.index[lane]];
-            for (int p = 0; p < batch.mesh->surface_count(); ++p)
-                for (int k = part.pattern->surface_start[p]; k < part.pattern->surface_start[p + 1]; ++k)
-                    for (int d = 0; d < Dim; ++d)
-                        part.loads[(size_t(part.pattern->surface[k].row) * Dim + d) * lanes + lane]
-                            += unit * part.pattern->surface[k].weight * forces[size_t(Dim) * p + d];
-        }
-        stiffness_kernels().solve[batch.wide()](batch.data(), part.pattern, part.matrix.data(), part.loads.data());
-        part.farthest = 0;
-        interpolate_step(part, part.loads, way);
-        for (int r = 0; r < part.pattern->rows; ++r)
-            std::copy_n(&part.loads[size_t(r) * Dim * lanes], Dim * lanes,
-                        &part.step[size_t(part.pattern->master[r]) * Dim * lanes]);
-    });
-    reach_ = 0;
-    for (const Part& part : parts_)
-        reach_ = std::max(reach_, part.farthest);
 }
 
 template <int Dim> void ImplicitGrains<Dim>::slide(SurfaceField& way) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "solver/barrier_contact.hpp"
 #include "step/assembly.hpp"
 #include "step/stiffness.hpp"
 
@@ -18,9 +19,6 @@ struct ImplicitSettings {
     int most_stages = 30;         ///< of a quasi-static step
     int threads = 1;
 };
-
-/// Surface values of all bodies, [body][point][Dim].
-using SurfaceField = std::vector<std::vector<double>>;
 
 /// The grains' part of an implicit step. Theta scheme, u' the displacements sought, h the step (Jean 1999; Acary and
 /// Brogliato 2008):
@@ -64,12 +62,28 @@ public:
     };
     /// Forces that lack balance at the last place evaluated, under contact forces at the surfaces [N].
     Forces load(const SurfaceField& contact_forces);
-    /// Stiffness, its factor and the compliances of the surfaces. `damping` of each grain adds to the inertia in the search
-    /// direction alone, per node mass [Pa].
-    void condense(const std::vector<double>& damping);
+    /// Stiffness K, its factor and the compliances of the surfaces. `damping` of each grain adds to the inertia in the search
+    /// direction alone, per node mass [Pa]. An old factor does when it is not to be made anew and masses count alike.
+    void condense(const std::vector<double>& damping, bool anew);
     const std::vector<const double*>& compliance() const { return compliance_view_; }
     /// Search direction K^-1 of the load and, when given, further surface forces; the way of the surfaces along it [m].
     void solve(SurfaceField& way, const SurfaceField* further = nullptr);
+
+    /// The tools of conjugate gradients with the whole second derivative of the potential, A, K being what is easy to solve
+    /// with. A x is a difference of internal forces; what contact forces change along a way comes as surface forces.
+    /// Residual of the search direction under these surface forces, and their work with the direction [J].
+    double begin_conjugate(const SurfaceField& forces);
+    /// y = K^-1 of the residual and, when given, further surface forces; its way; returns y . residual [J].
+    double precondition(SurfaceField& way, const SurfaceField* further = nullptr);
+    /// p <- y + share p
+    void turn_conjugate(double share);
+    /// A p less these surface forces; returns p . of it [J].
+    double curvature(const SurfaceField& forces);
+    /// Search direction and residual a share of p further.
+    void go_conjugate(double share);
+    /// Makes the search direction the one that `evaluate` goes along; the way of the surfaces along it.
+    void take_direction(SurfaceField& way);
+
     /// Way of the surfaces since the start of the step [m].
     void slide(SurfaceField& way) const;
 
@@ -89,14 +103,26 @@ private:
         AlignedVector base, step, stage;             ///< [master][Dim][lane]
         AlignedVector centre, lift;                  ///< the target without body forces, and what they add to it
         AlignedVector inertia;                       ///< [lane], 1 / (theta h)^2 in units of the stiffness [Pa]
-        AlignedVector rhs, loads;                    ///< [row][Dim][lane]; loads: contact forces, or the search direction
-        AlignedVector energy;                        ///< elastic, at the start of the step, [lane] [J/m^Dim]
+        AlignedVector held, factored;                ///< inertia and damping, [lane] [Pa]; those of the factor
+        AlignedVector rhs, loads, internal;          ///< [row][Dim][lane]; loads: contact forces, or K^-1 of something
+        AlignedVector direction, residual, conjugate, product; ///< [row][Dim][lane]
+        AlignedVector energy;                                  ///< elastic, at the start of the step, [lane] [J/m^Dim]
         AlignedVector matrix, compliance;
         double potential = 0, farthest = 0;
         bool sound = true;
     };
-    template <class Work> void each_part(const Work& work);
-    void interpolate_step(Part& part, const AlignedVector& rows, SurfaceField& way) const;
+    template <class Work> void each_part(const Work& work)
+    {
+        const int count = int(parts_.size());
+#pragma omp parallel for num_threads(settings_.threads) schedule(dynamic)
+        for (int b = 0; b < count; ++b)
+            work(parts_[size_t(b)]);
+    }
+    template <class Work> double sum_over_parts(const Work& work);
+    static double dot(const Part& part, const AlignedVector& a, const AlignedVector& b);
+    void add_surface_forces(const Part& part, const SurfaceField& forces, double share, AlignedVector& rows) const;
+    void interpolate(Part& part, const AlignedVector& rows, SurfaceField& way) const;
+    void multiply(Part& part, const AlignedVector& x);
 
     Assembly<Dim>& assembly_;
     std::vector<Part> parts_;

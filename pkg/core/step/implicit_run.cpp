@@ -18,7 +18,7 @@ void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, cons
 {
     report = {};
     for (double rest = dt; rest > 0;) {
-        const double wished = substep > 0 ? std::min(substep, rest) : rest;
+        const double wished = substep > 0 ? substep : dt;
         const double h = rest / std::ceil(rest / wished - 1e-9); // no crumb at the end
         const auto outcome = step.attempt(h, settings, gravity, scene);
         report.iterations += outcome.iterations;
@@ -38,7 +38,8 @@ void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, cons
         report.dissipated += outcome.dissipated;
         accepted(h, outcome);
         rest = h >= rest ? 0 : rest - h;
-        substep = outcome.iterations <= swift * outcome.stages ? growth * h : h;
+        // from the wish and not from h: of equal parts that are shorter than the wish none would ever become the whole step
+        substep = outcome.iterations <= swift * outcome.stages ? growth * std::min(wished, dt) : wished;
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/implicit_step.hpp"
 
+#include "step/smoothed_friction.hpp"
+
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -8,25 +10,6 @@
 namespace softgrain {
 namespace {
 
-    /// Force against a slide d of a contact that bears b at most, and its slope; see ImplicitStep.
-    struct Friction {
-        double force, slope, energy;
-        Friction(double d, double b, double kappa)
-        {
-            const double root = std::sqrt(kappa * kappa + b * b * d * d), sum = kappa + root;
-            force = sum > 0 ? b * b * d / sum : 0;
-            slope = root > 0 ? b * b / sum : 0; // secant
-            energy = root - kappa - (kappa > 0 ? kappa * std::log(sum / (2 * kappa)) : 0);
-        }
-        /// Slope for a force t of its own (Chan, Golub and Mulet 1999).
-        static double slope_for(double t, double d, double b, double kappa)
-        {
-            const double root = std::sqrt(kappa * kappa + b * b * d * d);
-            return b * b * (1 - std::abs(t * d) / std::max(root, 1e-300)) / (kappa + root);
-        }
-    };
-
-    constexpr double fraction_to_boundary = 0.995;
     constexpr double most_penetration = 1e-5; ///< [radius of the smaller body]
     constexpr int most_firmer = 8;
 
@@ -37,8 +20,12 @@ ImplicitStep<Dim>::ImplicitStep(Assembly<Dim>& assembly)
     : assembly_(assembly)
     , grains_(assembly)
 {
-    for (const Grain<Dim>* grain : assembly.grains())
-        least_force_ = std::max(least_force_, 1e-4 * grain->law->shear_modulus(grain->parameters.data()) * grain->radius);
+    for (const Grain<Dim>* grain : assembly.grains()) {
+        const double modulus = grain->law->shear_modulus(grain->parameters.data());
+        shear_modulus_ = std::max(shear_modulus_, modulus);
+        least_force_ = std::max(least_force_, 1e-4 * modulus * grain->radius);
+    }
+    least_force_ *= std::sqrt(double(assembly.grains().size())); // norms of forces are those of all grains
 }
 
 /// Feet, normals, gaps and slides at the grains' places.
@@ -85,9 +72,10 @@ template <int Dim> void ImplicitStep<Dim>::start_values()
         }
     }
     missed = std::clamp(0.3 * missed, 1e-4 * size, ahead * size);
-    double rigid = 1e300; // stiffness of the most mobile contact
+    double mobile = 0; // compliance of the most mobile contact
     for (const auto& contact : contacts)
-        rigid = std::min(rigid, 1 / contact.compliance);
+        mobile = std::max(mobile, contact.compliance);
+    const double rigid = mobile > 0 ? 1 / mobile : shear_modulus_;
     kappa_ = missed * std::max(loaded ? force / loaded : 0, rigid * missed);
     for (auto& contact : contacts) {
         const double before = contact.force > 0 ? std::min(kappa_ / contact.force, 10 * missed) : missed;
@@ -118,7 +106,7 @@ template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
         contact.shear = found != known.end() ? found->second->shear : 0;
         contact.compliance = found != known.end() ? found->second->compliance : 0;
     }
-    system_.analyse(contacts, int(scene_->bodies.size()));
+    sorted_ = false;
 }
 
 /// Potential with barriers, friction at the present bounds, and the price of gaps that are not their slacks.
@@ -128,7 +116,7 @@ template <int Dim> double ImplicitStep<Dim>::merit(double potential) const
     for (const auto& contact : contacts) {
         sum -= kappa_ * std::log(contact.slack);
         sum += 2 * std::max(contact.force, contact.force + contact.force_step) * std::abs(contact.gap - contact.slack);
-        if (contact.friction > 0) sum += Friction(contact.slide, contact.friction * contact.force, kappa_).energy;
+        if (contact.friction > 0) sum += SmoothedFriction(contact.slide, contact.friction * contact.force, kappa_).energy;
     }
     return sum;
 }
@@ -168,73 +156,20 @@ template <int Dim> double ImplicitStep<Dim>::contact_residual() const
     return std::sqrt(error) / std::max(std::sqrt(r2), least_force_);
 }
 
-template <int Dim>
-SurfaceField& ImplicitStep<Dim>::gather(SurfaceField& field, double BarrierContact<Dim>::*normal,
-                                        double BarrierContact<Dim>::*shear) const
-{
-    for (auto& values : field)
-        std::fill(values.begin(), values.end(), 0.0);
-    for (const auto& contact : contacts) {
-        const Vec<Dim> force = contact.*normal * contact.normal + contact.*shear * contact.tangent();
-        Eigen::Map<Vec<Dim>>(&field[size_t(contact.body)][size_t(Dim) * contact.point]) += force;
-        for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
-            Eigen::Map<Vec<Dim>>(&field[size_t(contact.other)][size_t(Dim) * contact.vertex[k]])
-                -= contact.weight[k] * force;
-    }
-    return field;
-}
-
-/// Changes of forces and slacks towards r s = kappa, less a correction of second order.
-template <int Dim> void ImplicitStep<Dim>::solve_contacts(double kappa, const Eigen::VectorXd& correction)
-{
-    Eigen::VectorXd b(system_.rows());
-    for (size_t c = 0; c < contacts.size(); ++c) {
-        const auto& contact = contacts[c];
-        const int row = system_.row(int(c));
-        b[row] = (kappa - correction[Eigen::Index(c)]) / contact.force - contact.slack - (contact.gap - contact.slack)
-            - free_[row];
-        if (contact.friction > 0) {
-            const double bound = contact.friction * contact.force;
-            const double slope = Friction::slope_for(contact.shear, contact.slide, bound, kappa_);
-            b[row + 1] = (-Friction(contact.slide, bound, kappa_).force - contact.shear) / slope - free_[row + 1];
-        }
-    }
-    const Eigen::VectorXd change = system_.solve(b);
-    for (size_t c = 0; c < contacts.size(); ++c) {
-        auto& contact = contacts[c];
-        const int row = system_.row(int(c));
-        contact.force_step = change[row];
-        contact.shear_step = contact.friction > 0 ? change[row + 1] : 0;
-        contact.slack_step
-            = (kappa - correction[Eigen::Index(c)] - contact.slack * change[row]) / contact.force - contact.slack;
-    }
-}
-
-template <int Dim>
-double ImplicitStep<Dim>::largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const
-{
-    double share = 1;
-    for (const auto& contact : contacts)
-        if (contact.*step < 0) share = std::min(share, -fraction_to_boundary * contact.*value / contact.*step);
-    return share;
-}
-
 /// Room for the values of the surfaces, and the grains at the best of three guesses: as they are, going on at their
 /// velocities, or moving with the walls.
 template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& gravity)
 {
     contacts = scene_->contacts(ahead, dt);
     points_.clear();
-    for (SurfaceField* field : { &way_, &forces_, &moved_ })
+    for (SurfaceField* field : { &way_, &forces_, &moved_, &conjugate_ })
         field->resize(scene_->bodies.size());
     for (size_t b = 0; b < scene_->bodies.size(); ++b) {
         points_.push_back(scene_->bodies[b]->count);
-        for (SurfaceField* field : { &way_, &forces_, &moved_ })
+        for (SurfaceField* field : { &way_, &forces_, &moved_, &conjugate_ })
             (*field)[b].assign(size_t(Dim) * scene_->bodies[b]->count, 0);
     }
     grains_.begin(dt, settings_, gravity, [&](const Vec<Dim>& x) { return scene_->prediction(x, dt); });
-    system_.analyse(contacts, int(scene_->bodies.size()));
-
     using Start = typename ImplicitGrains<Dim>::Start;
     constexpr double too_far = 0.5; // radii
     double least = 1e300;
@@ -245,8 +180,10 @@ template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& grav
         if (!place_.sound || grains_.farthest() > too_far) continue;
         look_or_locate(dt);
         double value = place_.potential;
-        for (const auto& contact : contacts)
-            value += 2 * contact.force * std::max(0.0, -contact.gap);
+        for (const auto& contact : contacts) { // what it costs to undo penetrations, about
+            const double depth = std::max(0.0, -contact.gap);
+            value += 2 * contact.force * depth + shear_modulus_ * depth * depth;
+        }
         if (value < least) {
             least = value;
             best = start;
@@ -256,29 +193,30 @@ template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& grav
     place_ = grains_.evaluate(1);
     grains_.settle();
     look_or_locate(dt);
+    sorted_ = false;
+    for (auto& contact : contacts)
+        contact.slack = contact.gap;
 }
 
-/// Stiffnesses, and the contact system without its diagonal. Pressure stiffens the search direction of a grain where full
-/// steps have failed: its turning and its contacts' curvature are not in the tangent.
-template <int Dim> void ImplicitStep<Dim>::condense()
+template <int Dim> void ImplicitStep<Dim>::clear(SurfaceField& field)
 {
-    std::vector<double> damping(assembly_.grains().size(), 0);
-    for (const auto& contact : contacts) {
-        damping[size_t(contact.body)] += contact.force;
-        if (contact.other >= 0 && size_t(contact.other) < damping.size()) damping[size_t(contact.other)] += contact.force;
-    }
-    for (size_t g = 0; g < damping.size(); ++g)
-        damping[g] *= damping_ / (2 * M_PI * assembly_.grains()[g]->radius);
-    grains_.condense(damping);
-    auto compliance = grains_.compliance();
-    compliance.resize(scene_->bodies.size(), nullptr);
-    system_.assemble(contacts, compliance, points_);
+    for (auto& values : field)
+        std::fill(values.begin(), values.end(), 0.0);
+}
+
+/// At the surfaces [N].
+template <int Dim> SurfaceField& ImplicitStep<Dim>::contact_forces()
+{
+    clear(forces_);
+    for (const auto& contact : contacts)
+        add_force<Dim>(contact, contact.total(), forces_);
+    return forces_;
 }
 
 /// What the present place and forces are worth.
 template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitStep<Dim>::judge(Outcome& outcome)
 {
-    const auto balance = grains_.load(gather(forces_, &BarrierContact<Dim>::force, &BarrierContact<Dim>::shear));
+    const auto balance = grains_.load(contact_forces());
     const double scale = std::max({ balance.contact, settings_.quasistatic ? 0 : balance.inertia, least_force_ });
     outcome.unbalanced = balance.unbalanced / scale;
     outcome.held = settings_.quasistatic ? balance.inertia / scale : 0;
@@ -294,57 +232,14 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitStep<Dim>::judge
     return balance;
 }
 
-/// Search direction: changes of forces and slacks, and the grains' way. False when the contact system is singular.
-template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome)
-{
-    using Contact = BarrierContact<Dim>;
-    grains_.solve(moved_);
-    if (!contacts.empty()) {
-        Eigen::VectorXd diagonal(system_.rows());
-        free_.resize(system_.rows());
-        for (size_t c = 0; c < contacts.size(); ++c) {
-            const auto& contact = contacts[c];
-            const int row = system_.row(int(c));
-            const Vec<Dim> way = difference(contact, moved_);
-            diagonal[row] = contact.slack / contact.force;
-            free_[row] = contact.normal.dot(way);
-            if (contact.friction == 0) continue;
-            diagonal[row + 1]
-                = 1 / Friction::slope_for(contact.shear, contact.slide, contact.friction * contact.force, kappa_);
-            free_[row + 1] = contact.tangent().dot(way);
-        }
-        if (!system_.factorise(diagonal)) return false;
-        // Mehrotra 1992: how far kappa could fall at once says how far it is taken down
-        Eigen::VectorXd correction = Eigen::VectorXd::Zero(Eigen::Index(contacts.size()));
-        solve_contacts(0, correction);
-        const double primal = largest_share(&Contact::slack, &Contact::slack_step),
-                     dual = largest_share(&Contact::force, &Contact::force_step);
-        double now = 0, then = 0, floor = 0;
-        for (size_t c = 0; c < contacts.size(); ++c) {
-            const auto& contact = contacts[c];
-            now += contact.slack * contact.force / double(contacts.size());
-            then += (contact.slack + primal * contact.slack_step) * (contact.force + dual * contact.force_step)
-                / double(contacts.size());
-            floor += contact.force * contact.size / double(contacts.size());
-            correction[Eigen::Index(c)] = primal * dual * contact.slack_step * contact.force_step;
-        }
-        floor *= settings_.tolerance * (outcome.residual > 0.5 * settings_.tolerance ? 1e-6 : 1e-3);
-        kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), 1e-2, 1.0));
-        solve_contacts(kappa_, correction);
-    }
-    grains_.solve(moved_, &gather(forces_, &Contact::force_step, &Contact::shear_step));
-    return true;
-}
-
-/// Goes along the search direction as far as slacks stay positive, no point inverts and the merit does not grow. False when
-/// there is no such place.
+/// Goes along the search direction as far as no point inverts and the merit does not grow; each slack goes no further than to
+/// a small share of itself, since one that waited for another would hold up all grains. False when there is no such place.
 template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
 {
     using Contact = BarrierContact<Dim>;
     constexpr int most_cuts = 6; // of a merit that may err: the direction is one of descent but for friction's bounds
     const double dual = largest_share(&Contact::force, &Contact::force_step);
-    double share = std::min(largest_share(&Contact::slack, &Contact::slack_step),
-                            ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
+    double share = std::min(1.0, ahead / (4 * std::max(grains_.reach_of_step(), 1e-300)));
     const double before = merit(place_.potential), noise = 1e-9 * (std::abs(before) + 1e-3 * least_force_);
     const std::vector<Contact> start = contacts;
     int cuts = 0;
@@ -352,7 +247,8 @@ template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
         place_ = grains_.evaluate(share);
         if (place_.sound) {
             for (auto& contact : contacts)
-                contact.slack += share * contact.slack_step;
+                contact.slack
+                    = std::max(contact.slack + share * contact.slack_step, (1 - fraction_to_boundary) * contact.slack);
             locate();
             if (merit(place_.potential) < before + noise || cuts > most_cuts) break;
         }
@@ -370,13 +266,25 @@ template <int Dim> bool ImplicitStep<Dim>::take_direction(double dt)
     return true;
 }
 
+template <int Dim> void ImplicitStep<Dim>::choose_hold(const Outcome& outcome)
+{
+    constexpr double least = 0.01;
+    constexpr int many = 10;
+    if (outcome.stages > 1)
+        hold = std::max(least, hold / 2);
+    else if (outcome.iterations > many)
+        hold = std::min(1.0, 2 * hold);
+}
+
 template <int Dim>
 typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const ImplicitSettings& settings,
                                                                const Vec<Dim>& gravity, ImplicitScene<Dim>& scene)
 {
     scene_ = &scene;
     settings_ = settings;
-    damping_ = 0.1;
+    settings_.regularisation *= hold;
+    damping_ = 0;
+    factor_age_ = 0;
     begin(dt, gravity);
     condense();
     start_values();
@@ -391,12 +299,13 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
         if (touching && outcome.unbalanced < settings.tolerance
             && (!settings.quasistatic || free || outcome.stages >= settings.most_stages)) {
             outcome.converged = true;
+            if (settings.quasistatic) choose_hold(outcome);
             outcome.dissipated = grains_.accept();
             fill_problem(dt);
             return outcome;
         }
         if (settings.quasistatic && touching && !free && outcome.stages < settings.most_stages
-            && outcome.unbalanced < std::max(settings.tolerance, 0.1 * outcome.held)) {
+            && outcome.unbalanced < std::max(settings.tolerance, 0.5 * outcome.held)) {
             grains_.recentre();
             place_ = grains_.evaluate(0);
             held = contacts;
@@ -415,6 +324,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             + shown(outcome.residual, 2) + ", penetration " + shown(outcome.penetration, 2) + " radii)";
         if (!settings.quasistatic || ++firmer > most_firmer) break;
         grains_.back_to_centre();
+        hold = std::min(1.0, 4 * hold);
         place_ = grains_.evaluate(0);
         contacts = held;
         renew_contacts(dt);
@@ -450,7 +360,7 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
         contact.law = nullptr;
         // points that stand off bear no force but what the barrier leaves
         contact.impulse = from.force > stiffness * from.gap ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
-        contact.inertia = length * dt / from.compliance;
+        contact.inertia = length * dt * (from.compliance > 0 ? 1 / from.compliance : stiffness);
         const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
         contact.gap_speed = from.gap / dt - rate;
         problem.contacts.push_back(contact);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/condensed_contacts.hpp"
+#include "solver/contact_turning.hpp"
 #include "step/implicit_grains.hpp"
 
 namespace softgrain {
@@ -50,39 +51,57 @@ public:
     /// contact forces, and velocities and start values for `Assembly::renew` are set.
     Outcome attempt(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity, ImplicitScene<Dim>& scene);
 
+    /// Quasi-static: share of the regularisation that the next step begins with. Smaller after a step whose grains were held
+    /// too firmly to be in balance at once, larger after one that took many iterations.
+    double hold = 1;
     std::vector<BarrierContact<Dim>> contacts;
     /// The contacts as a problem for ContactProblem::residual and Assembly::account.
     ContactProblem<Dim> problem;
 
 private:
+    void choose_hold(const Outcome& outcome);
     void begin(double dt, const Vec<Dim>& gravity);
     void locate();
     void look_or_locate(double dt);
     void renew_contacts(double dt);
     void start_values();
+    void sort_contacts();
     void condense();
     typename ImplicitGrains<Dim>::Forces judge(Outcome& outcome);
     bool find_direction(const Outcome& outcome);
+    void refine(const Eigen::VectorXd& change);
     bool take_direction(double dt);
     double merit(double potential) const;
     double contact_residual() const;
     double mean_stiffness() const;
-    SurfaceField& gather(SurfaceField& field, double BarrierContact<Dim>::*normal, double BarrierContact<Dim>::*shear) const;
-    void solve_contacts(double kappa, const Eigen::VectorXd& correction);
+    SurfaceField& contact_forces();
+    static void clear(SurfaceField& field);
+    Eigen::VectorXd at_contacts(const SurfaceField& way) const;
+    SurfaceField& at_surfaces(const Eigen::VectorXd& rows);
+    Eigen::VectorXd solve_contacts(double kappa, const Eigen::VectorXd& correction);
+    void change_forces(const Eigen::VectorXd& by);
     double largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const;
     void fill_problem(double dt);
+
+    static constexpr double fraction_to_boundary = 0.995;
+    static constexpr int most_uses_of_factors = 4;
 
     Assembly<Dim>& assembly_;
     ImplicitGrains<Dim> grains_;
     CondensedContacts<Dim> system_;
+    ContactTurning<Dim> turning_;
     ImplicitScene<Dim>* scene_ = nullptr;
     ImplicitSettings settings_;
     typename ImplicitGrains<Dim>::Place place_ {};
-    SurfaceField way_, forces_, moved_;
+    SurfaceField way_, forces_, moved_, conjugate_;
     std::vector<int> points_;
-    Eigen::VectorXd free_; ///< way along normals and tangents without changes of forces
+    /// Of the contact system: way along normals and tangents without changes of forces, and the one wished for.
+    Eigen::VectorXd free_, target_;
     double kappa_ = 0, damping_ = 0;
-    double least_force_ = 0; ///< forces below count as none: 1e-4 shear moduli times radius [N]
+    bool sorted_ = false;      ///< contacts into those that count in the linear system and those that stand off
+    int factor_age_ = 0;       ///< iterations that the factors have served
+    double shear_modulus_ = 0; ///< the largest of a grain [Pa]
+    double least_force_ = 0;   ///< forces below count as none: 1e-4 shear moduli times radius a grain [N]
 };
 
 extern template class ImplicitStep<2>;

@@ -47,6 +47,19 @@ TEST(ThetaScheme, HasOrderOneAtOneAndOrderTwoAtOneHalf)
     }
 }
 
+// Parts of a step that are a little too short for it become the whole step again.
+TEST(ImplicitRun, GoesBackToWholeSteps)
+{
+    ImplicitWorld world;
+    world.add(make_grain(disc_mesh(60), neo_hookean()));
+    world.step(1e-5);
+    for (int k = 0; k < 3; ++k)
+        world.step(2e-5);
+    const int before = world.substeps;
+    world.step(2e-5);
+    EXPECT_EQ(world.substeps - before, 1);
+}
+
 struct Press {
     ImplicitWorld world;
     TwelveDiscs discs;
