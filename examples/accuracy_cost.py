@@ -219,9 +219,10 @@ def conclude(study, options):
     errors = {name: {"grain": [measured.grain(knobs) for knobs in grain],
                      "packing": [measured.packing(knobs) for knobs in packing]} for name, (grain, packing) in drawn.items()}
     best = min(chosen["error"] for chosen in table["settings"])
+    most = 0.05 if options.quick else 0.03      # the quick study has no more than 276 points
     return runs.conclude(study, {**study.head(), "errors": errors}, [
         study.enough_done("19 of 20", 0.05),
-        (f"the finest of all settings is within 3 % of finite elements ({best:.2%})", best < 0.03)])
+        (f"the finest of all settings is within {most:.0%} of finite elements ({best:.2%})", best < most)])
 
 
 runs.main(main)
