@@ -121,7 +121,7 @@ void SoftIntegrator::finish(int grain, double dt)
     // the collider looks at centres only; grains also change shape
     const auto& surface = state.grain.surface;
     if (const auto& bound = soft_.bodies[grain]->bound; bound && surface.travel >= state.insideUntil) {
-        const Real ahead = softgrain::reach(surface, surface.speed, dt);
+        const Real ahead = softgrain::reach(surface, surface.speed, dt) + softgrain::bulge(surface);
         Real room = std::numeric_limits<Real>::max();
         for (int d = 0; d < 2; ++d)
             room = std::min({ room, surface.min[d] - ahead - bound->min[d], bound->max[d] - surface.max[d] - ahead });
