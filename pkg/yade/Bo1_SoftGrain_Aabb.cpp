@@ -4,6 +4,8 @@
 #include "Problems.hpp"
 #include "SoftState.hpp"
 
+#include "contact/narrow_phase.hpp"
+
 namespace yade {
 
 YADE_PLUGIN((Bo1_SoftGrain_Aabb));
@@ -24,7 +26,7 @@ void Bo1_SoftGrain_Aabb::go(const shared_ptr<Shape>&, shared_ptr<Bound>& bound, 
         return;
     }
     const auto& surface = state->grain.surface;
-    const Real margin = 0.01 * surface.size + 2 * surface.ahead;
+    const Real margin = 0.01 * surface.size + 2 * surface.ahead + softgrain::bulge(surface);
     state->insideUntil = 0;
     bound->min = Vector3r(surface.min[0] - margin, surface.min[1] - margin, se3.position[2] - surface.size);
     bound->max = Vector3r(surface.max[0] + margin, surface.max[1] + margin, se3.position[2] + surface.size);

@@ -95,8 +95,22 @@ void SoftIntegrator::advance(double dt)
         if (evaluatedStep_ != scene->iter) evaluate();
     } else if (minJ() < 0.9 * evaluatedJ_) // an impact shortens the stable step within a few steps
         evaluate();
+    refuseCollapse();
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
+}
+
+/// The stable step shrinks with the smallest stretch: without end, the run would seem to hang.
+void SoftIntegrator::refuseCollapse() const
+{
+    for (const SoftState* state : soft_.states)
+        if (const Real stretch = state->grain.min_stretch; !(stretch > 1e-3))
+            throw softgrain::SimulationError(
+                "soft grain #" + std::to_string(state->grain.id)
+                + ": somewhere it is pressed to less than a thousandth of its size, or turned inside out (smallest stretch "
+                + softgrain::shown(stretch, 2)
+                + "); likely causes: grains pressed beyond what their resolution can follow, or an impact near the wave "
+                  "speed.");
 }
 
 /// What comes of a grain after it moved.
@@ -108,7 +122,7 @@ void SoftIntegrator::finish(int grain, double dt)
     // the collider looks at centres only; grains also change shape
     const auto& surface = state.grain.surface;
     if (const auto& bound = soft_.bodies[grain]->bound; bound && surface.travel >= state.insideUntil) {
-        const Real ahead = softgrain::reach(surface, surface.speed, dt);
+        const Real ahead = softgrain::reach(surface, surface.speed, dt) + softgrain::bulge(surface);
         Real room = std::numeric_limits<Real>::max();
         for (int d = 0; d < 2; ++d)
             room = std::min({ room, surface.min[d] - ahead - bound->min[d], bound->max[d] - surface.max[d] - ahead });

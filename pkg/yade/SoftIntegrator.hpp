@@ -111,6 +111,7 @@ private:
     bool knowsAllBodies();
     void takeIn(const shared_ptr<Body>& body);
     void refuseStrangers() const;
+    void refuseCollapse() const;
     void finish(int grain, double dt);
 
     softgrain::NonlinearGaussSeidel<2> solver_;

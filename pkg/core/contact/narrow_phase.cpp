@@ -39,12 +39,18 @@ template <int Dim> double allowance(const Surface<Dim>& larger, int point, const
     return larger.corner[point] ? 0 : share * 2 * M_PI * smaller.size / smaller.count;
 }
 
+template <int Dim> double bulge(const Surface<Dim>& surface)
+{
+    return surface.mobility > 0 ? 2 * M_PI * surface.size / surface.count / 8 : 0;
+}
+
 template <int Dim>
 void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& other, bool of_larger, double margin,
                                std::vector<Candidate>& found) const
 {
     found.clear();
-    const Vec<Dim> lo = other.min.array() - margin, hi = other.max.array() + margin;
+    const double beyond = margin + bulge(other);
+    const Vec<Dim> lo = other.min.array() - beyond, hi = other.max.array() + beyond;
     for (int p = 0; p < mine.count; ++p) {
         if (of_larger && mine.mobility == 0 && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
@@ -127,9 +133,10 @@ template <int Dim> double overlap(const Surface<Dim>& first, const Surface<Dim>&
     double deepest = 0;
     for (bool swapped : { false, true }) {
         const Surface<Dim>&mine = swapped ? second : first, &other = swapped ? first : second;
+        const double beyond = bulge(other);
         for (int p = 0; p < mine.count; ++p) {
             const Vec<Dim> x = mine.x(p);
-            if ((x.array() < other.min.array()).any() || (x.array() > other.max.array()).any()) continue;
+            if ((x.array() < other.min.array() - beyond).any() || (x.array() > other.max.array() + beyond).any()) continue;
             deepest = std::max(deepest, -project(other, x, nearest_segment(other, x), 0.5).gap);
         }
     }
@@ -175,6 +182,7 @@ template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int 
 
 template double reach<2>(const Surface<2>&, double, double);
 template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
+template double bulge<2>(const Surface<2>&);
 template double overlap<2>(const Surface<2>&, const Surface<2>&);
 template class PairContacts<2>;
 template class PlaneContacts<2>;

@@ -31,6 +31,10 @@ template <int Dim> double reach(const Surface<Dim>& a, double other_speed, doubl
 /// distance, several times what two touching arcs need. More would be a leak. Corners: 0.
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller);
 
+/// How far the outline may reach out of the box of its points [m]. The middle of a segment of length s that turns by an angle is
+/// s angle / 8 off its chord; the angle is taken as 1. Rigid polygons are straight: 0.
+template <int Dim> double bulge(const Surface<Dim>& surface);
+
 template <int Dim> class PairContacts {
 public:
     /// Contact points with a gap below `reach`, in a fixed order; forces carry over from the last call.
@@ -87,6 +91,7 @@ private:
 };
 
 extern template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
+extern template double bulge<2>(const Surface<2>&);
 extern template double overlap<2>(const Surface<2>&, const Surface<2>&);
 extern template class PairContacts<2>;
 extern template class PlaneContacts<2>;

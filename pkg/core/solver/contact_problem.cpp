@@ -13,8 +13,8 @@ namespace {
         const double normal = r.dot(n);
         const Vec<Dim> tangential = r - normal * n;
         const double size = tangential.norm();
+        if (mu * size <= -normal) return Vec<Dim>::Zero(); // first: without friction it holds the whole axis below
         if (size <= mu * normal) return r;
-        if (mu * size <= -normal) return Vec<Dim>::Zero();
         const double kept = (normal + mu * size) / (1 + mu * mu);
         return kept * n + (size > 0 ? mu * kept / size : 0) * tangential;
     }

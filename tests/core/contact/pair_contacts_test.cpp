@@ -53,6 +53,27 @@ std::map<Key, std::vector<Projection>> brute_force(const Surface<2>& first, cons
     return found;
 }
 
+/// Of a disc of that radius about (0, y), points at odd multiples of half their angle from the lowest place.
+Surface<2> coarse_disc(double radius, double y)
+{
+    std::vector<Vec<2>> vertices;
+    for (int k = 0; k < 14; ++k) {
+        const double angle = -M_PI / 2 + (k + 0.5) * 2 * M_PI / 14;
+        vertices.push_back({ radius * std::cos(angle), y + radius * std::sin(angle) });
+    }
+    return surface_of(vertices);
+}
+
+// Between its lowest points the disc reaches down to -1, its points to -cos(pi / 14) = -0.975.
+TEST(PairContacts, SeeTheOutlineThatReachesOutOfTheBoxOfItsPoints)
+{
+    const auto large = coarse_disc(1, 0), small = coarse_disc(0.05, -1.03);
+    PairContacts<2> pair;
+    pair.update(large, small, 1e-9);
+    ASSERT_FALSE(pair.points.empty());
+    EXPECT_LT(pair.points[0].gap, 0);
+}
+
 /// Returns the number of contacts that there have to be.
 int compare(const PairContacts<2>& pair, const Surface<2>& first, const Surface<2>& second, double dt)
 {

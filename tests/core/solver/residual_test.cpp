@@ -87,6 +87,11 @@ TEST(Residual, HasItsValuesForOneContact)
     c.gap_speed = 0;
     c.drive = Vec<2>(0, -4);
     EXPECT_NEAR(residual({ 0, -3 }), 0, 1e-15);
+    // without friction the cone is the normal's half-line: separation is a solution, approach is none
+    c.drive.setZero();
+    c.friction = 0;
+    EXPECT_NEAR(residual({ 0, 3 }), 0, 1e-15);
+    EXPECT_NEAR(residual({ 0, -3 }), 1, 1e-15);
 }
 
 } // namespace

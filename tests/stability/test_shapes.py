@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sharp and slender bodies: a square through a slot, squares corner on corner, a corner that indents a disc, a grain pinched
+between two edges, a column that buckles, a slender grain, a notched one."""
+import math
+import os
+import sys
+
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from stability import GRID_LAID_ANEW, RADIUS, block, disc, drive, gel, plate, polygon, run_cases, square_box  # noqa: E402
+from softgrain import arrays  # noqa: E402
+
+METHODS = ("explicit", "updated", "implicit")
+HALF = 0.25     # of the squares of the slot [m]
+
+
+def rectangle(x, y, half_width, half_height, angle=0.0):
+    c, s = math.cos(angle), math.sin(angle)
+    return [(x + c * a - s * b, y + s * a + c * b) for a, b in ((-half_width, -half_height), (half_width, -half_height),
+                                                                (half_width, half_height), (-half_width, half_height))]
+
+
+def slot(run):
+    """The two-dimensional case of Li et al. 2020's comparison (IPC): a fixed soft block, here rigid, of 0.2 m x 0.7 m, beside
+    which a soft square of 0.5 m is driven past, E = 1000 Pa, nu = 0.4, 1000 kg/m3; here through a slot of 0.4 m between two."""
+    square = polygon(rectangle(0, 0, HALF, HALF), gel(0.4, 1000 / 2.8), points=124)
+    for side in (-1, 1):
+        block(0.55 * side, 0.61, 0.35, 0.1)
+    pusher = plate(1, -1.004 * HALF, 1, 0.05)
+    run.begin(4e-2)
+    run.go(1.0 / 0.05)
+    drive(pusher, 0)
+    run.go(1.0)
+    run.require("squeezed into the slot, not around it", square.state.pos[1] > 0.4 and abs(square.state.pos[0]) < 0.05,
+                square.state.pos)
+
+
+def past_each_other(run):
+    """Two soft squares of 0.5 m pushed past each other with an overlap of 0.1 m of their ways: corner on corner first."""
+    material = gel(0.4, 1000 / 2.8)
+    squares = [polygon(rectangle(0.51 * side, 0.2 * side, HALF, HALF), material, velocity=(-0.1 * side, 0, 0))
+               for side in (-1, 1)]
+    run.begin(2e-2)
+    momentum = sum(square.state.mass * square.state.vel[0] for square in squares)
+    run.go(7.5)
+    run.require("momentum kept", abs(sum(square.state.mass * square.state.vel[0] for square in squares) - momentum)
+                < 1e-6 * squares[0].state.mass)
+
+
+def corner_on_corner(run):
+    """Two squares on their corners, one on the other, pressed between plates by 20 %."""
+    diagonal = RADIUS * math.sqrt(2)
+    for k in (-1, 1):
+        polygon(rectangle(0, 1.01 * k * diagonal, RADIUS, RADIUS, math.pi / 4))
+    plate(1, -2.02 * diagonal, 1, 1.0)
+    plate(1, 2.02 * diagonal, -1, -1.0)
+    run.begin(5e-6)
+    run.go(0.4 * diagonal)
+
+
+def indented(run):
+    """A box on its corner pressed into a disc by half of R."""
+    disc(0, 0, points=124)
+    plate(1, -1.001 * RADIUS, 1)
+    block(0, RADIUS * (1.001 + 0.5 * math.sqrt(2)), RADIUS / 2, RADIUS / 2, math.pi / 4, (0, -1))
+    run.begin(5e-6)
+    run.go(0.5 * RADIUS)
+
+
+def pinched(run):
+    """A disc between the corners of two boxes, which come as near to each other as R."""
+    disc(0, 0, points=124)
+    for side in (-1, 1):
+        block(0, side * RADIUS * (1.001 + 0.5 * math.sqrt(2)), RADIUS / 2, RADIUS / 2, math.pi / 4, (0, -side))
+    run.begin(5e-6)
+    run.go(0.5 * RADIUS)
+
+
+def column(run):
+    """Four rectangles, twice as high as wide, on each other with friction 0.5, pressed by a fifth: the column gives way."""
+    for k in range(4):
+        polygon(rectangle(0.02 * RADIUS * (-1)**k, (2.001 * k + 1.001) * RADIUS, RADIUS / 2, RADIUS))
+    drive(square_box(-3 * RADIUS, 3 * RADIUS, 0, 8.006 * RADIUS)[-1], -2.0)
+    run.begin(5e-6, friction=0.5)
+    run.go(1.6 * RADIUS / 2)
+
+
+def slender(run):
+    """A grain ten times as long as thick, standing, pressed by a fifth between plates: it buckles between side walls."""
+    body = polygon(rectangle(0, 5 * RADIUS, RADIUS / 2, 5 * RADIUS, 0.01), points=160)
+    drive(square_box(-3 * RADIUS, 3 * RADIUS, -0.01 * RADIUS, 10.01 * RADIUS)[-1], -2.0)
+    run.begin(5e-6, friction=0.5)
+    run.go(2 * RADIUS / 2)
+    bow = numpy.ptp(arrays.outline(body)[:, 0])
+    run.require("buckled", bow > 1.5 * RADIUS, bow)
+
+
+def notched(run):
+    """A square with a notch to its middle, pressed across until the notch is shut: its own faces do not know each other."""
+    w = 0.3 * RADIUS
+    polygon([(-RADIUS, -RADIUS), (RADIUS, -RADIUS), (RADIUS, RADIUS), (w, RADIUS), (0, 0), (-w, RADIUS), (-RADIUS, RADIUS)],
+            points=160)
+    plate(0, -1.001 * RADIUS, 1, 1.0)
+    plate(0, 1.001 * RADIUS, -1, -1.0)
+    run.begin(5e-6)
+    run.go(0.15 * RADIUS)
+
+
+run_cases(("square through a slot", METHODS, slot),
+          ("squares past each other", METHODS, past_each_other),
+          ("corner on corner", METHODS, corner_on_corner),
+          ("corner indents a disc", METHODS, indented),
+          ("grain pinched between two edges", METHODS, pinched),
+          ("column of four rectangles", METHODS, column),
+          ("slender grain, aspect 10", METHODS, slender),
+          ("notched grain", METHODS, notched),
+          known=[("square through", "explicit", "sharp edges of the slot: the corner of the box cuts in between surface points"),
+                 ("square through", "updated", GRID_LAID_ANEW), ("squares past", "updated", GRID_LAID_ANEW),
+                 ("column", "updated", GRID_LAID_ANEW)])
