@@ -95,7 +95,7 @@ void SoftIntegrator::advance(double dt)
         if (evaluatedStep_ != scene->iter) evaluate();
     } else if (minJ() < 0.9 * evaluatedJ_) // an impact shortens the stable step within a few steps
         evaluate();
-    refuseCollapse();
+    if (evaluatedStep_ == scene->iter) refuseCollapse();
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
 }
