@@ -105,7 +105,7 @@ def fast_cycles(run):
 
 
 ALL = ("explicit", "updated", "implicit", "quasistatic")
-run_cases(*[(f"held packing, friction {mu:g}", ALL, held(mu))
+run_cases(*[(f"held packing, friction {mu:g}" + ", long" * LONG, ALL, held(mu))
             for mu in (0, 0.5, 1, 10)],
           ("five grains pressed to 5 % and released", ("implicit", "quasistatic") + ("explicit",) * LONG, flat_and_back),
           ("compaction, release, compaction", ALL, again),
