@@ -16,7 +16,7 @@ def light_on_heavy(run):
     """A grain meets one at rest of 1e6 times its mass."""
     light = disc(0, 2.02 * RADIUS, velocity=(0, -1, 0))
     heavy = disc(0, 0, material=gel(density=1e9))
-    run.begin(2e-6)
+    run.begin(1e-6)
     run.go(0.02 * RADIUS + 0.6e-3)
     momentum = light.state.mass * light.state.vel[1] + heavy.state.mass * heavy.state.vel[1]
     run.require("momentum kept", abs(momentum / light.state.mass + 1) < 1e-3, momentum)

@@ -130,4 +130,5 @@ run_cases(*[(f"{safety} of the stable step", EXPLICIT, share(safety)) for safety
           ("step changed in mid-run", EXPLICIT + IMPLICIT, changed),
           ("saved and loaded in mid-run", EXPLICIT + IMPLICIT, saved),
           *[(f"overlap of {depth:g} R at the start", EXPLICIT + IMPLICIT, overlapping(depth)) for depth in (5e-4, 0.05, 0.5)],
-          known=[("square that touches", "implicit", "flat faces that just touch: steps find no balance")])
+          known=[("square that touches", "implicit", "flat faces that just touch: steps find no balance"),
+                 ("saved and loaded", "implicit", "the way on depends on something that is not saved")])

@@ -61,7 +61,8 @@ namespace {
             && grain.spin_acceleration == Mat<Dim>::Zero();
     }
 
-    /// Neighbours one after the other, in rows some three grains high: they are set in motion together.
+    /// Neighbours one after the other, in rows some three grains high, by where they were put, which a run that goes on after a
+    /// break has kept: they are set in motion together.
     template <int Dim> void sort_by_place(std::vector<Grain<Dim>*>& grains)
     {
         double sum = 0;
@@ -70,10 +71,10 @@ namespace {
         const double row = 6 * sum / double(grains.size());
         std::stable_sort(grains.begin(), grains.end(), [row](const Grain<Dim>* a, const Grain<Dim>* b) {
             for (int d = Dim - 1; d > 0; --d) {
-                const double of_a = std::floor(a->motion.position[d] / row), of_b = std::floor(b->motion.position[d] / row);
+                const double of_a = std::floor(a->origin[d] / row), of_b = std::floor(b->origin[d] / row);
                 if (of_a != of_b) return of_a < of_b;
             }
-            return a->motion.position[0] < b->motion.position[0];
+            return a->origin[0] < b->origin[0];
         });
     }
 
