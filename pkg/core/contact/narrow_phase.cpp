@@ -68,10 +68,6 @@ namespace {
         return second.mobility > 0 && (first.mobility == 0 || second.size < first.size);
     }
 
-} // namespace
-
-namespace {
-
     template <int Dim> double reach_of_pair(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
     {
         const bool second_smaller = second_is_smaller(first, second);

@@ -38,6 +38,17 @@ template <int Dim> struct BarrierContact {
         static_assert(Dim == 2, "one tangent, in the plane");
         return Vec<Dim>(-normal.y(), normal.x());
     }
+    /// Foot, normal and gap of the point at x on the other body as it stands; the foot is sought from the last one on.
+    void locate(const Vec<Dim>& x, const Surface<Dim>& other_body)
+    {
+        const Projection at = project(other_body, x, face, place);
+        face = at.segment;
+        place = at.t;
+        vertex = at.vertex;
+        weight = at.weight;
+        normal = at.normal;
+        gap = at.gap + let;
+    }
     Vec<Dim> total() const { return force * normal + shear * tangent(); }
     int size_of_problem() const { return aloof ? 0 : friction > 0 ? Dim : 1; }
 };

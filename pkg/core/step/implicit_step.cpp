@@ -34,18 +34,10 @@ template <int Dim> void ImplicitStep<Dim>::locate()
     grains_.slide(way_);
     for (auto& contact : contacts) {
         const Surface<Dim>& body = *scene_->bodies[contact.body];
-        if (contact.other < 0) {
+        if (contact.other < 0)
             contact.gap = contact.normal.dot(body.x(contact.point)) - contact.plane;
-        } else {
-            const Surface<Dim>& other = *scene_->bodies[contact.other];
-            const Projection at = project(other, body.x(contact.point), contact.face, contact.place);
-            contact.face = at.segment;
-            contact.place = at.t;
-            contact.vertex = at.vertex;
-            contact.weight = at.weight;
-            contact.normal = at.normal;
-            contact.gap = at.gap + contact.let;
-        }
+        else
+            contact.locate(body.x(contact.point), *scene_->bodies[contact.other]);
         if (contact.friction > 0) contact.slide = (difference(contact, way_) - contact.drive).dot(contact.tangent());
     }
 }

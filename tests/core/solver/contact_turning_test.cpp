@@ -36,15 +36,8 @@ struct Pair {
     }
     void locate()
     {
-        for (auto& contact : contacts) {
-            const Projection at = project(face, point.x(contact.point), contact.face, contact.place);
-            contact.face = at.segment;
-            contact.place = at.t;
-            contact.vertex = at.vertex;
-            contact.weight = at.weight;
-            contact.normal = at.normal;
-            contact.gap = at.gap;
-        }
+        for (auto& contact : contacts)
+            contact.locate(point.x(contact.point), face);
     }
     void move(const SurfaceField& way, double share)
     {

@@ -12,6 +12,18 @@ using namespace softgrain::testing_support;
 
 namespace {
 
+/// Grains that fly, spin and vibrate, out of each other's reach.
+void add_tumbling(World& world, const Material& material, int count)
+{
+    for (int g = 0; g < count; ++g) {
+        GrainStart start;
+        start.centre = Vec<2>(0.01 * g, 0.005);
+        start.velocity = Vec<2>(3, -2 + g);
+        start.velocity_gradient = spin(4000) + (Mat<2>() << 2000, 500, -300, -1500).finished();
+        world.add(make_grain(disc_mesh(124), material, start));
+    }
+}
+
 // The force has no resultant and no couple, and positions move along momenta: symplectic Euler keeps both sums exactly;
 // each step rounds anew.
 TEST(FreeFlight, KeepsMomentumAndAngularMomentum)
@@ -19,13 +31,7 @@ TEST(FreeFlight, KeepsMomentumAndAngularMomentum)
     for (const Material& material : { neo_hookean(), mooney_rivlin() })
         for (int count : { 1, 3 }) { // one lane, many lanes
             World world;
-            for (int g = 0; g < count; ++g) {
-                GrainStart start;
-                start.centre = Vec<2>(0.01 * g, 0.005);
-                start.velocity = Vec<2>(3, -2 + g);
-                start.velocity_gradient = spin(4000) + (Mat<2>() << 2000, 500, -300, -1500).finished();
-                world.add(make_grain(disc_mesh(124), material, start));
-            }
+            add_tumbling(world, material, count);
             const Sums before(world);
             const double dt = step_of(world.grains[0], 0.6);
             constexpr int steps = 5000;
@@ -153,13 +159,7 @@ TEST(FreeFlight, BringsSurfacesOnDemand)
 {
     World wanted, other;
     for (World* world : { &wanted, &other })
-        for (int g = 0; g < 3; ++g) {
-            GrainStart start;
-            start.centre = Vec<2>(0.01 * g, 0.005);
-            start.velocity = Vec<2>(3, -2 + g);
-            start.velocity_gradient = spin(4000) + (Mat<2>() << 2000, 500, -300, -1500).finished();
-            world->add(make_grain(disc_mesh(124), neo_hookean(), start));
-        }
+        add_tumbling(*world, neo_hookean(), 3);
     const double dt = 1e-7;
     wanted.step(dt); // the assembly wants all surfaces
     other.step(dt);
