@@ -33,7 +33,8 @@ TOUCHING = 5e-4                 # a boundary point nearer to a wall than this to
 QUICK = {"points": 124, "squeeze": 0.2, "speed": 0.5}
 # Force per thickness over R [Pa] at these squeezes, frictionless plates, default materials.
 REFERENCE_SQUEEZES = (0.1, 0.2, 0.3, 0.4)
-REFERENCE = {"nh": (393.5e3, 1107.8e3, 2324.7e3, 4493.9e3), "mr": (359.7e3, 987.2e3, 1987.6e3, 3603.6e3)}
+REFERENCE = {"nh": (393.5e3, 1107.8e3, 2324.7e3, 4493.9e3), "mr": (359.7e3, 987.2e3, 1987.6e3, 3603.6e3)}  # F / R [Pa]
+REFERENCE_WIDTHS = {"nh": (0.3162, 0.5197, 0.7312, 0.9692), "mr": (0.3117, 0.5040, 0.6928, 0.8930)}        # a / R
 
 
 def read_options():
@@ -165,15 +166,18 @@ def check(squeeze, table, options):
     material = {"lambda_", "mu", "c1", "c2", "c"} & options.given
     compared = {}
     if options.walls == 2 and not options.friction and not material:
-        for at, pressure in zip(REFERENCE_SQUEEZES, REFERENCE[options.material]):
+        width = table["contact_half_width_m"]
+        for at, *expected in zip(REFERENCE_SQUEEZES, REFERENCE[options.material], REFERENCE_WIDTHS[options.material]):
             if at > done[-1]:
                 break
-            found, expected = float(numpy.interp(at, done, force)), pressure * options.radius
-            compared[f"{at:g}"] = {"force_N_m": found, "finite_elements_N_m": expected}
-            error = found / expected - 1
-            allowed = 0.03 if options.points >= 250 else 0.08
-            checks.append((f"force at {at:.0%} within {allowed:.0%} of finite elements: {found:.1f} N/m against "
-                           f"{expected:.1f} ({error:+.2%})", abs(error) < allowed))
+            for what, unit, column, value, allowed in (("force", "N_m", force, expected[0], (0.03, 0.08)),
+                                                       ("contact_half_width", "m", width, expected[1], (0.05, 0.08))):
+                found, known = float(numpy.interp(at, done, column)), value * options.radius
+                compared.setdefault(f"{at:g}", {}).update({f"{what}_{unit}": found,
+                                                           f"{what}_finite_elements_{unit}": known})
+                error, most = found / known - 1, allowed[options.points < 250]
+                checks.append((f"{what.replace('_', ' ')} at {at:.0%} within {most:.0%} of finite elements: {found:.5g} "
+                               f"{unit.replace('_', '/')} against {known:.5g} ({error:+.2%})", abs(error) < most))
     return checks, compared
 
 

@@ -103,8 +103,9 @@ def contactHalfWidth(outline, axis, wall, tolerance):
     axis       of the wall's normal (0: x, 1: y); wall: the wall's coordinate on that axis [m]
     tolerance  gap up to which a point touches [m]
 
-    Beyond the last touching point the gap opens as (distance)^1.5, as between smooth bodies; the end of the contact
-    is where that law, through the next two points, gives zero. 0 when no point touches.
+    Beyond its end the gap opens as (distance)^1.5, as between smooth bodies: the end is where the parabola for the
+    distance along the boundary, as a function of gap^(2/3), through up to four points after the last touching one,
+    meets gap 0. 0 when no point touches.
     """
     gap = numpy.abs(outline[:, axis] - wall)
     along = outline[:, 1 - axis]
@@ -112,14 +113,18 @@ def contactHalfWidth(outline, axis, wall, tolerance):
     if not len(touching):
         return 0.0
     ends = []
-    first, final = touching[numpy.argmin(along[touching])], touching[numpy.argmax(along[touching])]
-    for sign, last in ((-1, first), (1, final)):
+    for sign in (-1, 1):
+        last = touching[numpy.argmax(sign * along[touching])]
         side = 1 if sign * (along[(last + 1) % len(gap)] - along[last - 1]) > 0 else -1
-        near, far = (last + side) % len(gap), (last + 2 * side) % len(gap)
-        # in a corner between two walls the boundary turns, and the neighbour touches too
-        ratio = (gap[far] / gap[near])**(2 / 3) if gap[near] > tolerance else 0.0
-        end = (ratio * along[near] - along[far]) / (ratio - 1) if ratio > 1 else along[last]
-        ends.append(sign * min(max(sign * end, sign * along[last]), sign * along[near]))
+        after = (last + side * numpy.arange(5)) % len(gap)
+        # up to where the boundary turns back, or up another wall
+        free = int(numpy.cumprod(sign * numpy.diff(along[after]) > tolerance).sum())
+        path = numpy.append(0, numpy.cumsum(numpy.linalg.norm(numpy.diff(outline[after], axis=0), axis=1)))
+        end = 0.0
+        if free > 1:
+            fit = numpy.polyfit(gap[after[1:free + 1]]**(2 / 3), path[1:free + 1], min(2, free - 1))
+            end = min(max(fit[-1], 0.0), path[1])
+        ends.append(along[last] + sign * end)
     return (ends[1] - ends[0]) / 2
 
 

@@ -46,15 +46,24 @@ def coordination_equals_the_slow_way(checks):
             checks.that("rattlers as by brute force", rattlers == count - len(alive))
 
 
-def contact_width_of_a_flattened_disc(checks):
-    # boundary with the gap (|x| - a)^1.5 beyond the contact |x| < a on a wall at y = 1, other side far away
-    for a in (0.2, 0.43, 0.5):
-        x = numpy.linspace(-0.9, 0.9, 28)
-        top = 1 - numpy.maximum(abs(x) - a, 0)**1.5
+def contact_width_of_a_pressed_cylinder(checks):
+    # Johnson 1985, section 4.2(c): outside the contact |x| < a the gap is [x sqrt(x^2 - a^2) - a^2 acosh(x / a)] / 2 R
+    for a in (0.2, 0.33, 0.5):
+        x = numpy.linspace(-1, 1, 28)
+        out = numpy.maximum(abs(x) / a, 1)
+        top = 1 - a**2 / 4 * (out * numpy.sqrt(out**2 - 1) - numpy.arccosh(out))
         outline = numpy.concatenate([numpy.column_stack([x, top])[::-1], numpy.column_stack([x, -3 - top])])
         for turned, axis in ((outline, 1), (outline[:, ::-1], 0)):
-            checks.close_to("half-width of the contact", measures.contactHalfWidth(turned, axis, 1.0, 1e-4), a, 1e-6)
+            checks.close_to("half-width of the contact", measures.contactHalfWidth(turned, axis, 1.0, 1e-6) / a, 1, 1e-2)
     checks.that("no contact", measures.contactHalfWidth(outline, 1, 2.0, 1e-4) == 0)
+
+
+def contact_width_in_a_square(checks):
+    x = numpy.linspace(-1, 1, 11)[:-1]
+    square = numpy.concatenate([numpy.column_stack([x, 0 * x - 1]), numpy.column_stack([0 * x + 1, x]),
+                                numpy.column_stack([-x, 0 * x + 1]), numpy.column_stack([0 * x - 1, -x])])
+    for axis in range(2):
+        checks.close_to("side of the square", measures.contactHalfWidth(square, axis, 1.0, 1e-4), 1, 1e-12)
 
 
 def extent_of_a_sampled_circle(checks):
@@ -89,5 +98,5 @@ def jamming_and_equation_10(checks):
     checks.that("no jamming before jamming", jamming.jamming_point(loose) is None and jamming.growth_fits(loose) == [])
 
 
-run_tests(coordination_of_known_packings, coordination_equals_the_slow_way, contact_width_of_a_flattened_disc,
-          extent_of_a_sampled_circle, jamming_and_equation_10)
+run_tests(coordination_of_known_packings, coordination_equals_the_slow_way, contact_width_of_a_pressed_cylinder,
+          contact_width_in_a_square, extent_of_a_sampled_circle, jamming_and_equation_10)
