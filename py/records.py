@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The csv file of a run, written row by row so that nothing computed is lost, and files replaced in one stroke."""
+import hashlib
 import json
 import math
 import os
@@ -13,10 +14,7 @@ class Table:
         fewer."""
         self.columns = columns
         self.rows = rows
-        kept = [",".join(columns)]
-        if rows:
-            kept = self._begin_of(path, rows + 1)
-        replace_text(path, "\n".join(kept) + "\n")
+        replace_text(path, self.begin_of(path, rows + 1).decode("ascii") if rows else ",".join(columns) + "\n")
         self._file = open(path, "a", encoding="ascii")
 
     def append(self, row):
@@ -33,26 +31,40 @@ class Table:
         self._file.close()
 
     @staticmethod
-    def _begin_of(path, count):
-        """The first lines of an older csv file. Raises ValueError, one sentence, when there are fewer."""
+    def begin_of(path, count):
+        """The first lines of a csv file, as bytes. Raises ValueError, one sentence, when there are fewer."""
         try:
-            with open(path, encoding="ascii") as old:
-                lines = old.read().splitlines()[:count]
-        except (OSError, UnicodeDecodeError):
+            with open(path, "rb") as file:
+                lines = [line for _, line in zip(range(count), file) if line.endswith(b"\n")]
+        except OSError:
             lines = []
         if len(lines) < count:
             raise ValueError(f"{path} holds {max(len(lines) - 1, 0)} rows, its checkpoint counts {count - 1}: start "
                              "anew with --force.")
-        return lines
+        return b"".join(lines)
+
+
+class Columns(dict):
+    """Those of a csv file; ValueError, one sentence, for one that is not there."""
+
+    def __init__(self, path, columns):
+        super().__init__(columns)
+        self.path = path
+
+    def __missing__(self, column):
+        raise ValueError(f"{self.path} has no column {column}: give the csv file of a run.")
 
 
 def read_table(path):
-    """A csv file of numbers as a dict from column to array of float."""
+    """A csv file of numbers as a dict from column to array of float. Raises ValueError, one sentence."""
     import numpy
 
     columns, rows = _read(path)
-    values = numpy.array([[float(word) for word in row] for row in rows])
-    return {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)}
+    try:
+        values = numpy.array([[float(word) for word in row] for row in rows])
+    except ValueError as error:
+        raise ValueError(f"{path} is no table of numbers ({error}): give the csv file of a run.") from None
+    return Columns(path, {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)})
 
 
 def read_rows(path):
@@ -68,9 +80,16 @@ def read_rows(path):
 
 
 def _read(path):
-    """The columns of a csv file and its rows, as lists of words. Lines that begin with # are comments."""
-    with open(path, encoding="ascii") as file:
-        columns, *rows = (line.split(",") for line in file.read().splitlines() if not line.startswith("#"))
+    """The columns of a csv file and its rows, as lists of words. Lines that begin with # are comments. Raises ValueError, one
+    sentence."""
+    with open(path, encoding="ascii", errors="replace") as file:
+        lines = [line.split(",") for line in file.read().splitlines() if not line.startswith("#")]
+    if not lines:
+        raise ValueError(f"{path} is empty: a csv file begins with the names of its columns.")
+    columns, *rows = lines
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(columns):
+            raise ValueError(f"{path} is damaged: {len(columns)} columns, but {len(row)} values in row {number}.")
     return columns, rows
 
 
@@ -98,6 +117,17 @@ def read_json(path):
     """The content of a json file. OSError or ValueError when there is none."""
     with open(path, encoding="utf-8") as file:
         return json.load(file)
+
+
+def digest(data):
+    """Of bytes, by which a change of them is found."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def sealed(content):
+    """A dict for json with its own digest in it, under "digest"."""
+    rest = {key: value for key, value in content.items() if key != "digest"}
+    return {**rest, "digest": digest(json.dumps(rest, sort_keys=True).encode())}
 
 
 def shown(value):

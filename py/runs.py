@@ -16,11 +16,11 @@ from . import summary as summaries
 from .checks import InputError
 from .options import MANAGEMENT
 from .progress import Progress
-from .records import Table, read_json, write_json
+from .records import Table, digest, read_json, sealed, write_json
 
 MOST_CHECKPOINT_SHARE = 0.02    # of the wall time may go into checkpoints
 SAVED_BY = ("softgrain", "yade")    # versions that a checkpoint depends on
-CHECKPOINT = {"run", "scene", "rows", "versions", "parameters", "until", "memory", "cpu_s", "wall_s"}
+CHECKPOINT = {"run", "scene", "rows", "digests", "versions", "parameters", "until", "memory", "cpu_s", "wall_s", "digest"}
 OWN_FILES = ("*.csv", "checkpoint*", "summary.json", "figure?.png", "snapshot_*.npz", "*.part")
 
 
@@ -99,16 +99,24 @@ class Run:
         """Saves scene, memory and number of rows, in an order that leaves a whole checkpoint at every moment."""
         began = time.monotonic()
         scene = self._save_scene()
-        write_json(self.path("checkpoint.json"), {
-            "run": self.name, "scene": scene, "rows": self.table.rows, "versions": _versions(),
-            "parameters": self.parameters(),
+        write_json(self.path("checkpoint.json"), sealed({
+            "run": self.name, "scene": scene, "rows": self.table.rows, "digests": self._digests(scene, self.table.rows),
+            "versions": _versions(), "parameters": self.parameters(),
             "until": getattr(self.options, "until", None), "memory": self.memory, "cpu_s": self.cpu_seconds(),
-            "wall_s": self.wall_seconds()}, nan=True)
+            "wall_s": self.wall_seconds()}), nan=True)
         for old in glob.glob(self.path("checkpoint-*.yade")):
             if os.path.basename(old) != scene:
                 os.remove(old)
         self._checkpoint_at = time.monotonic()
         self._checkpoint_cost = self._checkpoint_at - began
+
+    def _digests(self, scene, rows):
+        """Of what a checkpoint belongs to: its scene and the rows up to it."""
+        table = Table.begin_of(self.path(f"{self.name}.csv"), rows + 1)
+        if scene is None:
+            return [digest(table)]
+        with open(self.path(scene), "rb") as file:
+            return [digest(table), digest(file.read())]
 
     def _save_scene(self):
         """Saves what the computation is at; the name of the file, for the checkpoint."""
@@ -120,9 +128,9 @@ class Run:
         """Loads what _save_scene saved; `stored` is the content of checkpoint.json. Raises InputError."""
         try:
             O.load(self.path(stored["scene"]), quiet=True)
-        except (RuntimeError, MemoryError) as error:    # MemoryError: boost takes what it reads for a size
-            raise InputError(f"the checkpoint {self.path(stored['scene'])} cannot be loaded "
-                             f"({str(error) or 'no saved scene'}): start anew with --force.") from None
+        except RuntimeError as error:
+            raise InputError(f"the checkpoint {self.path(stored['scene'])} cannot be loaded ({error}): start anew with "
+                             "--force.") from None
 
     def checkpoint_if_due(self):
         """After --checkpoint-seconds of wall time, later where checkpoints would take more than MOST_CHECKPOINT_SHARE."""
@@ -184,7 +192,7 @@ class Run:
             return None
         except ValueError:
             stored = None
-        if not isinstance(stored, dict) or not CHECKPOINT <= set(stored):
+        if not isinstance(stored, dict) or not CHECKPOINT <= set(stored) or stored != sealed(stored):
             raise InputError(f"{self.path('checkpoint.json')} cannot be read, or another version of softgrain wrote it: "
                              "resume with that version, or start anew with --force.")
         if stored["run"] != self.name:
@@ -194,7 +202,20 @@ class Run:
             raise InputError(f"the run in {self.options.out} was saved by {_named(stored['versions'])}, but this is "
                              f"{_named(_versions())}: resume with the versions that saved it, or start anew with "
                              "--force.")
+        self._require_whole(stored)
         return stored
+
+    def _require_whole(self, stored):
+        """InputError when the scene or the table of a checkpoint are not what was saved. A damaged scene has to be found here:
+        boost, which reads it, may crash on one."""
+        try:
+            whole = stored["digests"] == self._digests(stored["scene"], stored["rows"])
+        except OSError as error:
+            raise InputError(f"the checkpoint {error.filename} cannot be read ({error.strerror}): start anew with "
+                             "--force.") from None
+        if not whole:
+            files = " or ".join(filter(None, (stored["scene"], f"the first {stored['rows']} rows of {self.name}.csv")))
+            raise InputError(f"{files} in {self.options.out} changed since the checkpoint: start anew with --force.")
 
     def _adopt(self, stored):
         """Takes parameters, memory and scene of a checkpoint."""

@@ -11,7 +11,7 @@ from yade import O
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import EXAMPLES, Folder, is_sentence, run_tests  # noqa: E402
-from softgrain.records import read_table  # noqa: E402
+from softgrain.records import read_table, sealed  # noqa: E402
 
 SMALL = ["--grains", "10", "--points", "60"]
 
@@ -156,7 +156,7 @@ def spoiled_checkpoints_are_refused(checks):
             checks.that(what, code == 2 and is_sentence(err.strip()) and not missing, f"{code}: {err!r}, lacks {missing}")
 
         def note(**changed):
-            return json.dumps({**good, **changed}).encode()
+            return json.dumps(sealed({**good, **changed})).encode()
 
         stored = os.path.join(out, "checkpoint.json")
         spoiled("of another softgrain", ["9.9", "version"], stored, note(versions={**good["versions"], "softgrain": "9.9"}))
