@@ -33,10 +33,9 @@ template <int Dim> void ImplicitStep<Dim>::sort_contacts()
 template <int Dim> void ImplicitStep<Dim>::condense()
 {
     std::vector<double> damping(assembly_.grains().size(), 0);
-    for (const auto& contact : contacts) {
-        damping[size_t(contact.body)] += contact.force;
-        if (contact.other >= 0 && size_t(contact.other) < damping.size()) damping[size_t(contact.other)] += contact.force;
-    }
+    for (const auto& contact : contacts)
+        for (int body : { contact.body, contact.other })
+            if (body >= 0 && size_t(body) < damping.size()) damping[size_t(body)] += contact.force; // rigid ones come last
     for (size_t g = 0; g < damping.size(); ++g)
         damping[g] *= damping_ / (2 * M_PI * assembly_.grains()[g]->radius);
     const bool anew = factor_age_ == 0;
