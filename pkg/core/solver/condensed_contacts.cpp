@@ -39,7 +39,7 @@ template <int Dim> void CondensedContacts<Dim>::analyse(const std::vector<Barrie
     std::vector<int> key;
     for (const auto& contact : contacts)
         key.insert(key.end(), { contact.body, contact.other, contact.size_of_problem() });
-    if (key == analysed_) return;
+    if (key == analysed_ && sides_.size() == size_t(bodies)) return;
     analysed_ = std::move(key);
     sides_.assign(size_t(bodies), {});
     row_.clear();

@@ -90,6 +90,7 @@ template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
         known[key(contact)] = &contact;
     grains_.mark();
     contacts = scene_->contacts(ahead, dt);
+    make_room();
     locate();
     for (auto& contact : contacts) {
         const auto found = known.find(key(contact));
@@ -148,11 +149,9 @@ template <int Dim> double ImplicitStep<Dim>::contact_residual() const
     return std::sqrt(error) / std::max(std::sqrt(r2), least_force_);
 }
 
-/// Room for the values of the surfaces, and the grains at the best of three guesses: as they are, going on at their
-/// velocities, or moving with the walls.
-template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& gravity)
+/// For the values of the surfaces; looking for contacts may find other bodies.
+template <int Dim> void ImplicitStep<Dim>::make_room()
 {
-    contacts = scene_->contacts(ahead, dt);
     points_.clear();
     for (SurfaceField* field : { &way_, &forces_, &moved_, &conjugate_ })
         field->resize(scene_->bodies.size());
@@ -161,6 +160,13 @@ template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& grav
         for (SurfaceField* field : { &way_, &forces_, &moved_, &conjugate_ })
             (*field)[b].assign(size_t(Dim) * scene_->bodies[b]->count, 0);
     }
+}
+
+/// The grains at the best of three guesses: as they are, going on at their velocities, or moving with the walls.
+template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& gravity)
+{
+    contacts = scene_->contacts(ahead, dt);
+    make_room();
     grains_.begin(dt, settings_, gravity, [&](const Vec<Dim>& x) { return scene_->prediction(x, dt); });
     using Start = typename ImplicitGrains<Dim>::Start;
     constexpr double too_far = 0.5; // radii

@@ -60,6 +60,7 @@ public:
 
 private:
     void choose_hold(const Outcome& outcome);
+    void make_room();
     void begin(double dt, const Vec<Dim>& gravity);
     void locate();
     void look_or_locate(double dt);
