@@ -44,19 +44,22 @@ void SoftIntegrator::action()
     }
 }
 
+/// Symplectic Euler whose velocities belong to the middles of steps: a kick lasts from the middle of the last step to that of
+/// this one. With the step alone each change of it would feed energy in, as steps shrink with the grains.
 void SoftIntegrator::advance(double dt)
 {
     Stopwatch watch(stageSeconds);
+    const double kick = lastStep > 0 ? (lastStep + dt) / 2 : dt;
 
     pairs_.collect(*scene, touchingPairs());
     pairs_.wantSurfaces();
     watch.stage(1);
 
     loads_.gather(*scene, gravity, threads());
-    assembly_->predict(dt, gravity.head<2>(), threads());
+    assembly_->predict(kick, gravity.head<2>(), threads());
     watch.stage(0);
 
-    pairs_.pose(*scene, recovery);
+    pairs_.pose(*scene, kick, recovery);
     if (fresh_)
         pairs_.refuseOverlaps();
     else
@@ -76,13 +79,18 @@ void SoftIntegrator::advance(double dt)
     softgrain::EnergyBalance balance;
     softgrain::Assembly<2>::account(pairs_.problem, balance);
     pairs_.load();
-    pairs_.add(dt, 1);
+    pairs_.add(kick, 1);
     pairs_.deliver(*scene);
     const auto hold = [&](softgrain::Grain<2>& grain) {
-        loads_.hold(soft_.of(grain.id), dt);
-        loads_.work(soft_.of(grain.id), dt);
+        loads_.hold(soft_.of(grain.id), kick);
+        loads_.work(soft_.of(grain.id), kick);
     };
-    assembly_->correct(dt, threads(), hold, [&](softgrain::Grain<2>& grain) { finish(soft_.of(grain.id), dt); });
+    const auto finish = [&](softgrain::Grain<2>& grain) {
+        loads_.work(soft_.of(grain.id), kick);
+        settle(soft_.of(grain.id), dt);
+    };
+    assembly_->correct(dt, threads(), hold, finish);
+    lastStep = dt;
     if (std::exchange(fresh_, false))
         for (SoftState* state : soft_.states)
             state->justPlaced = false;
@@ -114,10 +122,9 @@ void SoftIntegrator::refuseCollapse() const
 }
 
 /// What comes of a grain after it moved.
-void SoftIntegrator::finish(int grain, double dt)
+void SoftIntegrator::settle(int grain, double dt)
 {
     SoftState& state = *soft_.states[grain];
-    loads_.work(grain, dt);
     state.publish();
     // the collider looks at centres only; grains also change shape
     const auto& surface = state.grain.surface;
@@ -203,7 +210,7 @@ void SoftIntegrator::requireStableStep()
     for (const auto& engine : scene->engines)
         if (const auto* stepper = dynamic_cast<const SoftTimeStepper*>(engine.get());
             stepper && stepper->active && !stepper->dead) {
-            scene->dt = stepper->safety * criticalStep;
+            scene->dt = stepper->stepAt(criticalStep);
             return;
         }
     throw std::runtime_error(

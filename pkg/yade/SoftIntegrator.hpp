@@ -53,6 +53,7 @@ public:
                     (int, maxSweeps, 1000, , "Most sweeps of the contact solver in a step [-]."))(
                     (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
                     (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
+                    (Real, lastStep, 0, Attr::readonly, "Time step of the last step [s]; 0 before the first. Velocities belong to its middle."))(
                     (Real, externalWork, 0, Attr::readonly, "Work on the grains since the start [J/m]: of driven bodies, gravity, O.forces, blocked degrees of freedom, and of velocities set by hand."))(
                     (Real, frictionDissipation, 0, Attr::readonly, "Energy dissipated by friction since the start [J/m]."))(
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
@@ -112,7 +113,7 @@ private:
     void takeIn(const shared_ptr<Body>& body);
     void refuseStrangers() const;
     void refuseCollapse() const;
-    void finish(int grain, double dt);
+    void settle(int grain, double dt);
 
     softgrain::NonlinearGaussSeidel<2> solver_;
     softgrain::SmallestCriticalStep<2> smallestCriticalStep_;

@@ -50,7 +50,7 @@ void SoftPairs::wantSurfaces()
     }
 }
 
-void SoftPairs::pose(const Scene& scene, Real recovery)
+void SoftPairs::pose(const Scene& scene, double kick, Real recovery)
 {
     deepest = 0;
     for (const Pair& pair : pairs_)
@@ -64,7 +64,7 @@ void SoftPairs::pose(const Scene& scene, Real recovery)
             contact.drive = softgrain::Vec<2>::Zero();
             if (pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
             contact.law = pair.phys->law;
-            contact.impulse = scene.dt * point.force;
+            contact.impulse = kick * point.force;
             problem.contacts.push_back(contact);
         }
 }

@@ -76,7 +76,7 @@ public:
     /// Steps are to renew the whole surfaces of the grains in pairs, and of no others.
     void wantSurfaces();
     /// Poses the problem of the contact points found at the start of a step. Shares of `recovery` of penetrations are taken back.
-    void pose(const Scene& scene, Real recovery);
+    void pose(const Scene& scene, double kick, Real recovery);
     /// Impulses to the surfaces.
     void load();
     /// Adds the forces of a step of length dt, times its share of the time, to the pairs; start values of the next step.

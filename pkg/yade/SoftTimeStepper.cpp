@@ -4,6 +4,9 @@
 #include "Problems.hpp"
 #include "SoftIntegrator.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace yade {
 
 YADE_PLUGIN((SoftTimeStepper));
@@ -34,7 +37,21 @@ void SoftTimeStepper::computeTimeStep(Scene* scene)
             limit = integrator->criticalStep;
         }
     if (std::isnan(limit)) limit = firstStep(*scene);
-    if (!std::isnan(limit)) scene->dt = safety * limit;
+    if (std::isnan(limit)) return;
+    constexpr Real most = 0.3, kept = 0.9;
+    const Real change = lastLimit > 0 ? std::min(std::abs(std::log(limit / lastLimit)), most) : 0;
+    unrest = std::max(change, kept * unrest);
+    lastLimit = limit;
+    scene->dt = stepAt(limit);
+}
+
+/// Symplectic Euler is stable below omega dt = 2, but modes at sqrt(2) and sqrt(3) resonate with their own nonlinearity (Schlick,
+/// Mandziuk, Skeel and Srinivas 1998). In calm motion nothing comes of it: limits change by less than 2 % in compactions.
+Real SoftTimeStepper::stepAt(Real limit) const
+{
+    constexpr Real calm = 0.03, wild = 0.1, below_resonances = 0.6;
+    const Real wildness = std::clamp((unrest - calm) / (wild - calm), 0.0, 1.0);
+    return limit * (safety + wildness * std::min(below_resonances - safety, 0.0));
 }
 
 } // namespace yade

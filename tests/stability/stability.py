@@ -29,6 +29,7 @@ GROSS = 1 / 3
 # most penetration [R], energy missing [turnover], residual of the contact solver, iterations in a step
 LIMITS = {"explicit": (1e-2, 1e-2, 3e-2, 999), "updated": (1e-2, 2e-2, 3e-2, 999),
           "implicit": (1e-4, 2e-2, 1e-3, math.inf), "quasistatic": (1e-4, 2e-2, 1e-3, math.inf)}
+LEAST_TURNOVER = 1e-6   # [modulus x area of all grains], as a strain of 1e-3 gives: energies far below it are those of tolerances
 LONG = "--long" in sys.argv
 COLUMNS = "case,method,passed,steps,min_J,penetration_over_R,overlap_over_R,energy_drift,residual,iterations,cuts,known,note".split(",")
 
@@ -102,6 +103,7 @@ class Run:
         if self.implicit:
             more.update(integrator="implicit", dt=1e-3 * step, quasistatic=self.method == "quasistatic")
         self.step = step
+        self.turnover = LEAST_TURNOVER * sum(body.material.mu * body.shape.area() for body in measures.softBodies())
         O.engines = softEngines(gravity=gravity, friction=friction, wallFriction=friction, **more)
         self.soft = measures.softIntegrator()
         self.places = []

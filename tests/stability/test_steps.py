@@ -8,7 +8,7 @@ import tempfile
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from stability import RADIUS, disc, drive, gel, plate, polygon, run_cases, square_box  # noqa: E402
+from stability import GRID_LAID_ANEW, RADIUS, disc, drive, gel, plate, polygon, run_cases, square_box  # noqa: E402
 from softgrain import arrays, measures, softCloud  # noqa: E402
 from yade import O  # noqa: E402
 
@@ -29,6 +29,18 @@ def share(safety):
         run.begin(1e-5, safety=safety)
         run.go(0.4 * RADIUS / SPEED)
     return work
+
+
+def follows(run):
+    """A disc squeezed to half its height and let go: at every step, the time step follows its vibrations."""
+    disc(0, 0, velocity=(0, 0.1, 0))
+    plates = [plate(1, -RADIUS, 1, 10.0), plate(1, RADIUS, -1, -10.0)]
+    run.begin(1e-6)
+    run.soft.checkInterval = 1
+    run.go(0.5 * RADIUS / 10)
+    for wall in plates:
+        drive(wall, -10.0 * wall.shape.sense)
+    run.go(40 * RADIUS / 35)
 
 
 def over(run):
@@ -124,11 +136,13 @@ def overlapping(depth):
 
 EXPLICIT, IMPLICIT = ("explicit", "updated"), ("implicit", "quasistatic")
 run_cases(*[(f"{safety} of the stable step", EXPLICIT, share(safety)) for safety in (0.5, 0.7, 0.95)],
+          ("step follows vibrations", EXPLICIT, follows),
           ("1.5 times the stable step", EXPLICIT, over),
           *[(f"{factor} times the explicit step", IMPLICIT, times_the_limit(factor)) for factor in (1, 10, 100, 1000)],
           ("square that touches plates at the start", EXPLICIT + IMPLICIT, flat_on_flat),
           ("step changed in mid-run", EXPLICIT + IMPLICIT, changed),
           ("saved and loaded in mid-run", EXPLICIT + IMPLICIT, saved),
           *[(f"overlap of {depth:g} R at the start", EXPLICIT + IMPLICIT, overlapping(depth)) for depth in (5e-4, 0.05, 0.5)],
-          known=[("square that touches", "implicit", "flat faces that just touch: steps find no balance"),
+          known=[("step follows", "updated", GRID_LAID_ANEW),
+                 ("square that touches", "implicit", "flat faces that just touch: steps find no balance"),
                  ("saved and loaded", "implicit", "differences of 1e-12 R after a step grow to the size of the tolerance")])
