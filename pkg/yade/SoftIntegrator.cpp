@@ -8,6 +8,7 @@
 #include "SoftTimeStepper.hpp"
 #include "Stopwatch.hpp"
 
+#include "contact/polyline.hpp"
 #include "solver/matrix_form.hpp"
 
 #include <core/InteractionLoop.hpp>
@@ -108,17 +109,26 @@ void SoftIntegrator::advance(double dt)
     watch.stage(3);
 }
 
-/// The stable step shrinks with the smallest stretch: without end, the run would seem to hang.
+/// The stable step shrinks with the smallest stretch: without end, the run would seem to hang. A boundary that has folded over
+/// itself, a dent or a corner, meets others on the wrong side.
 void SoftIntegrator::refuseCollapse() const
 {
-    for (const SoftState* state : soft_.states)
-        if (const Real stretch = state->grain.min_stretch; !(stretch > 1e-3))
-            throw softgrain::SimulationError(
-                "soft grain #" + std::to_string(state->grain.id)
-                + ": somewhere it is pressed to less than a thousandth of its size, or turned inside out (smallest stretch "
-                + softgrain::shown(stretch, 2)
-                + "); likely causes: grains pressed beyond what their resolution can follow, or an impact near the wave "
-                  "speed.");
+    constexpr Real least = 1e-3, folds = 0.3; // stretches; at larger ones boundaries do not fold
+    const std::string causes
+        = "; likely causes: grains pressed beyond what their resolution can follow, or an impact near the "
+          "wave speed.";
+    for (const SoftState* state : soft_.states) {
+        const Real stretch = state->grain.min_stretch;
+        const std::string whose = "soft grain #" + std::to_string(state->grain.id) + ": ";
+        if (!(stretch > least))
+            throw softgrain::SimulationError(whose
+                                             + "somewhere it is pressed to less than a thousandth of its size, or turned "
+                                               "inside out (smallest stretch "
+                                             + softgrain::shown(stretch, 2) + ")" + causes);
+        if (stretch < folds && softgrain::crosses_itself(state->surface()))
+            throw softgrain::SimulationError(whose + "its boundary has folded over itself (smallest stretch "
+                                             + softgrain::shown(stretch, 2) + ")" + causes);
+    }
 }
 
 /// What comes of a grain after it moved.

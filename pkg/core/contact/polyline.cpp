@@ -86,6 +86,24 @@ Bend bend_at(const Surface<2>& polyline, int segment, double t)
     return { here.slope(t), length, outward(along).dot(here.second(t)) / length };
 }
 
+bool crosses_itself(const Surface<2>& polyline)
+{
+    const int n = polyline.count;
+    const auto side = [](const Vec<2>& from, const Vec<2>& to, const Vec<2>& x) {
+        return (to.x() - from.x()) * (x.y() - from.y()) - (to.y() - from.y()) * (x.x() - from.x());
+    };
+    for (int i = 0; i + 2 < n; ++i) {
+        const Vec<2> a = polyline.x(i), b = polyline.x(i + 1);
+        const Vec<2> lo = a.cwiseMin(b), hi = a.cwiseMax(b);
+        for (int j = i + 2; j < n - (i == 0); ++j) { // neighbours share a vertex
+            const Vec<2> c = polyline.x(j), d = polyline.x((j + 1) % n);
+            if ((c.cwiseMax(d).array() < lo.array()).any() || (c.cwiseMin(d).array() > hi.array()).any()) continue;
+            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+        }
+    }
+    return false;
+}
+
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
 {
     int best = 0;

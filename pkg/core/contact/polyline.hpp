@@ -36,6 +36,9 @@ struct Bend {
 };
 Bend bend_at(const Surface<2>& polyline, int segment, double t);
 
+/// Whether chords of a closed polyline cross each other: the boundary has folded over itself.
+bool crosses_itself(const Surface<2>& polyline);
+
 /// The segment nearest to x, by looking at all of them.
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x);
 

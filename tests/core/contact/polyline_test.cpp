@@ -257,6 +257,14 @@ TEST(Projection, PolygonWithAcuteCornersHasStraightFacesToo)
         expect_distances("triangle", { { 0, 0 }, { 2, 0.1 }, { 0.6, 1.5 } }, spacing);
 }
 
+TEST(CrossesItself, IsToldOfFoldedBoundariesAlone)
+{
+    EXPECT_FALSE(crosses_itself(circle(24)));
+    EXPECT_FALSE(crosses_itself(surface_of({ { 0, 0 }, { 2, 0 }, { 2, 2 }, { 1, 0.5 }, { 0, 2 } }))); // a dent
+    EXPECT_TRUE(crosses_itself(surface_of({ { 0, 0 }, { 2, 0 }, { 2, 2 }, { 1, -0.5 }, { 0, 2 } })));
+    EXPECT_TRUE(crosses_itself(surface_of({ { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 } })));
+}
+
 TEST(NearestSegment, IsTheNearest)
 {
     Random random(7);
