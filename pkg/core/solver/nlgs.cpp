@@ -89,13 +89,20 @@ public:
             if (local.impulse != Vec<Dim>::Zero()) strike(group, local, local.impulse);
     }
 
+    /// On the contacts of two bodies before those of the next.
+    struct Effort {
+        int rounds;    ///< at most
+        double enough; ///< squared change of their impulses at which that ends, relative to their size
+        double share;  ///< of the way to the law's impulse that is gone with friction; below 1, contacts do not cycle
+    };
+
     /// Treats the contacts of a group once.
-    void sweep(int phase, int which)
+    void sweep(int phase, int which, const Effort& effort)
     {
         Group& group = groups_[phase_[phase] + which];
         group.change = group.size = 0;
         for (const Block& block : group.blocks)
-            solve(group, block);
+            solve(group, block, effort);
     }
 
     /// The last sweep changed the impulses by less than this, relative to their size.
@@ -282,10 +289,8 @@ private:
 
     /// Brings the contacts of two bodies to rest with each other, all else held: they are coupled most, being next
     /// to each other, and cheaply, by their own Delassus operator.
-    void solve(Group& group, const Block& block)
+    void solve(Group& group, const Block& block, const Effort& effort)
     {
-        constexpr int most_rounds = 8;
-        constexpr double enough = 1e-4; // of the impulses, squared
         Local<Dim>* const locals = &group.locals[block.first];
         auto &velocity = group.velocity, &before = group.before;
         velocity.resize(std::max(velocity.size(), block.count));
@@ -294,15 +299,17 @@ private:
             velocity[i] = approach(locals[i]);
             before[i] = locals[i].impulse;
         }
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < effort.rounds; ++round) {
             double change = 0, size = 0;
             for (size_t i = 0; i < block.count; ++i) {
                 Local<Dim>& local = locals[i];
                 const LocalContact<Dim> problem { local.normal, local.friction,
                                                   local.impulse - local.inertia * velocity[i] };
                 // the common law is called by name, so that it is inlined
-                const Vec<Dim> impulse
+                Vec<Dim> impulse
                     = local.coulomb ? local.coulomb->SignoriniCoulomb<Dim>::reaction(problem) : local.law->reaction(problem);
+                if (effort.share < 1 && local.friction > 0)
+                    impulse = local.impulse + effort.share * (impulse - local.impulse);
                 const Vec<Dim> step = impulse - local.impulse;
                 size += impulse.squaredNorm();
                 if (step == Vec<Dim>::Zero()) continue;
@@ -312,7 +319,7 @@ private:
                 for (size_t j = 0; j < block.count; ++j)
                     velocity[j] += row[j] * step;
             }
-            if (change <= enough * size) break;
+            if (change <= effort.enough * size) break;
         }
         for (size_t i = 0; i < block.count; ++i) {
             const Vec<Dim> step = locals[i].impulse - before[i];
@@ -360,8 +367,12 @@ template <int Dim> int NonlinearGaussSeidel<Dim>::solve(ContactProblem<Dim>& pro
     sweeper.begin(problem);
     // below this a sweep is over before threads have met
     constexpr int least_contacts_of_a_thread = 500;
+    // from so many sweeps on: pairs are treated thoroughly, then with care
+    constexpr int slow = 16, stuck = 64;
+    constexpr typename Sweeper::Effort quick { 8, 1e-4, 1 }, thorough { 200, 1e-8, 1 }, careful { 200, 1e-8, 0.5 };
     const int team = std::clamp(int(problem.contacts.size()) / least_contacts_of_a_thread, 1, std::max(1, threads));
     int sweeps = 0;
+    typename Sweeper::Effort effort = quick;
     bool done = false;
 #pragma omp parallel num_threads(team)
     {
@@ -378,12 +389,13 @@ template <int Dim> int NonlinearGaussSeidel<Dim>::solve(ContactProblem<Dim>& pro
                 if (sweeper.groups(phase) == 0) continue;
 #pragma omp for schedule(static, 1)
                 for (int g = 0; g < sweeper.groups(phase); ++g)
-                    sweeper.sweep(phase, g);
+                    sweeper.sweep(phase, g, effort);
             }
 #pragma omp single
             {
                 ++sweeps;
-                done = sweeps >= max_sweeps || sweeper.converged(tolerance);
+                done = sweeps >= max_sweeps || sweeper.converged(tolerance * effort.share);
+                effort = sweeps < slow ? quick : sweeps < stuck ? thorough : careful;
             }
         }
     }

@@ -9,7 +9,8 @@ namespace softgrain {
 
 /// Non-linear Gauss-Seidel (Jean 1999) by blocks: for two bodies after the other the laws of their contacts are solved
 /// with all others held, contact by contact in turn, until the impulses of a whole sweep change by less than the
-/// tolerance, relative to their size.
+/// tolerance, relative to their size. Where that takes long, because the contacts of two bodies are nearly redundant, theirs
+/// are solved more thoroughly.
 ///
 /// Bodies are divided into strips of space. A sweep treats the contacts inside the strips, then those between a strip
 /// and the next, even ones first: those of different strips do not meet and run side by side. The strips follow from
