@@ -59,7 +59,7 @@ void compare(const std::string& name, const std::string& key, const std::functio
     for (const auto& [label, material] : materials)
         for (size_t row = 0; row < table[key].size(); ++row) {
             const Mat<2> F = deformation(table[key][row]);
-            const auto entry = [&](const std::string& suffix) { return table[label + "_" + suffix][row]; };
+            const auto entry = [&, &label = label](const std::string& suffix) { return table[label + "_" + suffix][row]; };
             Mat<3> expected = Mat<3>::Zero();
             expected.diagonal() << entry("s11"), entry("s22"), entry("s33");
             expected(0, 1) = expected(1, 0) = entry("s12");

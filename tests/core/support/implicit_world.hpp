@@ -5,11 +5,14 @@
 #include "step/implicit_run.hpp"
 #include "support/scene.hpp"
 
+#include <omp.h>
+
 namespace softgrain::testing_support {
 
 class ImplicitWorld : public Scene, private ImplicitScene<2> {
 public:
     ImplicitSettings settings;
+    ImplicitWorld() { settings.threads = omp_get_max_threads(); }
 
     ImplicitStep<2>::Outcome last; ///< of the last substep
     // since the start

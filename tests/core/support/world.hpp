@@ -6,6 +6,8 @@
 #include "step/critical_step.hpp"
 #include "support/scene.hpp"
 
+#include <omp.h>
+
 namespace softgrain::testing_support {
 
 /// This share of the critical step of a grain as it is [s].
@@ -17,7 +19,7 @@ inline double step_of(const Grain<2>& grain, double share)
 class World : public Scene {
 public:
     NonlinearGaussSeidel<2> solver { 1e-6, 1000 };
-    int threads = 1;
+    int threads = omp_get_max_threads();
     std::vector<int> order; ///< in which the assembly takes the grains; none: as they are
 
     // of the last step
