@@ -103,7 +103,8 @@ class Run:
         if self.implicit:
             more.update(integrator="implicit", dt=1e-3 * step, quasistatic=self.method == "quasistatic")
         self.step = step
-        self.turnover = LEAST_TURNOVER * sum(body.material.mu * body.shape.area() for body in measures.softBodies())
+        if self.turnover == 0:
+            self.turnover = LEAST_TURNOVER * sum(body.material.mu * body.shape.area() for body in measures.softBodies())
         O.engines = softEngines(gravity=gravity, friction=friction, wallFriction=friction, **more)
         self.soft = measures.softIntegrator()
         self.places = []

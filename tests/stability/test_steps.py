@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Time steps: shares of the explicit limit and over it, implicit ones of 1 to 1000 times that limit; steps that change in
-mid-run, and a scene that is saved and loaded in mid-run; overlaps at the start."""
+mid-run, a scene that is saved and loaded in mid-run, a process that is killed; overlaps at the start."""
 import os
+import signal
 import sys
 import tempfile
+import time
 
 import numpy
 
@@ -98,10 +100,47 @@ def saved(run):
                 O.load(path, quiet=True)
             run.soft = measures.softIntegrator()
         run.go(duration / 2)
-        ends.append(numpy.concatenate([arrays.points(body).ravel() for body in measures.softBodies()]) / RADIUS)
+        ends.append(places())
     difference = abs(ends[1] - ends[0]).max()
     run.note = f"difference {difference:.1e} R"
     run.require("goes on the same", difference < (1e-4 if run.implicit else 1e-9), difference)
+
+
+def places():
+    """Of all material points [R]."""
+    return numpy.concatenate([arrays.points(body).ravel() for body in measures.softBodies()]) / RADIUS
+
+
+def killed(run):
+    """The same compaction, whole and by a process that is killed while it computes: another goes on from the scene that it saved
+    last, and comes to the same end."""
+    end = six(run) + O.time
+    with tempfile.TemporaryDirectory() as folder:
+        path, part = (os.path.join(folder, name) for name in ("scene.yade", "part.yade"))
+        process = os.fork()
+        if process == 0:
+            while True:
+                for _ in range(50):
+                    O.step()
+                O.save(part, quiet=True)
+                os.replace(part, path)
+        saved = set()
+        while len(saved) < 4:
+            time.sleep(1e-3)
+            if os.path.exists(path):
+                saved.add(os.stat(path).st_mtime_ns)
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
+        run.go(end - O.time)
+        whole = places()
+        O.reset()
+        O.load(path, quiet=True)
+    run.require("saved before its end", O.iter >= 150 and O.time < end, (O.iter, O.time))
+    run.soft = measures.softIntegrator()
+    run.go(end - O.time)
+    difference = abs(places() - whole).max()
+    run.note = f"difference {difference:.1e} R"
+    run.require("goes on the same", difference < 1e-9, difference)
 
 
 def six(run):
@@ -142,6 +181,7 @@ run_cases(*[(f"{safety} of the stable step", EXPLICIT, share(safety)) for safety
           ("square that touches plates at the start", EXPLICIT + IMPLICIT, flat_on_flat),
           ("step changed in mid-run", EXPLICIT + IMPLICIT, changed),
           ("saved and loaded in mid-run", EXPLICIT + IMPLICIT, saved),
+          ("killed in mid-run", EXPLICIT, killed),
           *[(f"overlap of {depth:g} R at the start", EXPLICIT + IMPLICIT, overlapping(depth)) for depth in (5e-4, 0.05, 0.5)],
           known=[("step follows", "updated", GRID_LAID_ANEW),
                  ("square that touches", "implicit", "flat faces that just touch: steps find no balance"),
