@@ -174,7 +174,7 @@ def a_run_that_breaks_down_leaves_its_rows(checks):
     with Folder() as folder:
         out = os.path.join(folder, "run")
         code, text, err = run_inside("compaction", ["--out", out, *SMALL, "--until", "2"])
-        words = ["step", "soft grain #", "sunk into each other", "likely causes"]
+        words = ["step", "soft grain #", "folded over itself", "likely causes"]
         missing = [word for word in words if word not in err]
         checks.that("exit code 1 and one sentence", code == 1 and is_sentence(err.strip()) and not missing,
                     f"{code}: {err!r}, lacks {missing}")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sharp and slender bodies: a square through a slot, squares corner on corner, a corner that indents a disc, a grain pinched
-between two edges, a column that buckles, a slender grain, a notched one."""
+between two edges, a column that buckles, a slender grain, a notched one, a ring."""
 import math
 import os
 import sys
@@ -107,6 +107,21 @@ def notched(run):
     run.go(0.15 * RADIUS)
 
 
+def ring(run):
+    """A ring, slit at its side as polygons have no holes: pressed from above by a third of its height it opens at the slit."""
+    def arc(radius, first, last, count):
+        return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in numpy.linspace(first, last, count)]
+
+    slit = 0.1
+    body = polygon(arc(RADIUS, slit, 2 * math.pi - slit, 24) + arc(0.6 * RADIUS, 2 * math.pi - slit, slit, 16), points=200)
+    plate(1, -1.001 * RADIUS, 1, 1.0)
+    plate(1, 1.001 * RADIUS, -1, -1.0)
+    run.begin(5e-6)
+    run.go(RADIUS / 3)
+    across = numpy.ptp(arrays.outline(body), axis=0)
+    run.require("lower and wider", across[1] < 1.36 * RADIUS and across[0] > 2.2 * RADIUS, across)
+
+
 run_cases(("square through a slot", METHODS, slot),
           ("squares past each other", METHODS, past_each_other),
           ("corner on corner", METHODS, corner_on_corner),
@@ -115,6 +130,7 @@ run_cases(("square through a slot", METHODS, slot),
           ("column of four rectangles", METHODS, column),
           ("slender grain, aspect 10", METHODS, slender),
           ("notched grain", METHODS, notched),
+          ("slit ring", METHODS, ring),
           known=[("square through", "explicit", "corners of the square fold over themselves at the edges of the slot"),
                  ("square through", "updated", GRID_LAID_ANEW), ("squares past", "updated", GRID_LAID_ANEW),
                  ("column", "updated", GRID_LAID_ANEW), ("slender", "updated", GRID_LAID_ANEW)])
