@@ -191,12 +191,13 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         wrapper.ForceResetter(),
         # with targetInterv the bound of a body at rest has no margin, and each one that starts to move costs a sort
         wrapper.InsertionSortCollider(
-            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb()], verletDist=verletDist,
-            targetInterv=-1),
+            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb(), wrapper.Bo1_Sphere_Aabb(),
+             wrapper.Bo1_Facet_Aabb()], verletDist=verletDist, targetInterv=-1),
         *steppers,  # InteractionLoop looks ahead by the time step
         wrapper.InteractionLoop(
             [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),
-             wrapper.Ig2_Box_SoftGrain_SoftGeom()],
+             wrapper.Ig2_Box_SoftGrain_SoftGeom(), wrapper.Ig2_Sphere_SoftGrain_SoftGeom(),
+             wrapper.Ig2_Facet_SoftGrain_SoftGeom()],
             [wrapper.Ip2_SoftMat_SoftMat_SoftPhys(**_friction("friction", friction)),
              wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction))],
             [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics()]),

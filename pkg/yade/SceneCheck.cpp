@@ -4,7 +4,6 @@
 #include "SoftIntegrator.hpp"
 #include "SoftMat.hpp"
 
-#include <pkg/common/Box.hpp>
 #include <pkg/common/Wall.hpp>
 
 #include <core/InteractionLoop.hpp>
@@ -50,14 +49,15 @@ void requireSoftEngines(const Scene& scene)
             continue;
         }
         const auto* wall = dynamic_cast<const Wall*>(body->shape.get());
-        const bool box = dynamic_cast<const Box*>(body->shape.get()) != nullptr;
-        if ((wall || box) && !dynamic_cast<const FrictMat*>(body->material.get()))
-            walls.push_back("body #" + std::to_string(body->id) + ", a " + body->shape->getClassName()
+        const std::string kind = body->shape ? body->shape->getClassName() : "";
+        const bool shown = kind == "Box" || kind == "Sphere" || kind == "Facet";
+        if ((wall || shown) && !dynamic_cast<const FrictMat*>(body->material.get()))
+            walls.push_back("body #" + std::to_string(body->id) + ", a " + kind
                             + (body->material ? " of " + body->material->getClassName() : " without material")
                             + ", has no friction with soft grains; give it a FrictMat.");
         if (wall && wall->axis < 2) needed.insert("Ig2_Wall_SoftGrain_SoftGeom");
-        if (box) needed.insert("Ig2_Box_SoftGrain_SoftGeom");
-        if ((wall || box) && !dynamic_cast<const SoftMat*>(body->material.get()))
+        if (shown) needed.insert("Ig2_" + kind + "_SoftGrain_SoftGeom");
+        if ((wall || shown) && !dynamic_cast<const SoftMat*>(body->material.get()))
             needed.insert("Ip2_FrictMat_SoftMat_SoftPhys");
     }
     if (!soft) return;

@@ -178,7 +178,7 @@ void SoftIntegrator::adopt()
     if (soft_.states.empty()) return;
     for (const auto& body : *scene->bodies) {
         const std::string kind = body->shape ? body->shape->getClassName() : "";
-        if ((kind == "Wall" || kind == "Box") && !body->bound)
+        if ((kind == "Wall" || kind == "Box" || kind == "Sphere" || kind == "Facet") && !body->bound)
             throw std::runtime_error("body #" + std::to_string(body->id) + ", a " + kind
                                      + ", has no bounding box, so grains would pass through it; put Bo1_" + kind
                                      + "_Aabb() into InsertionSortCollider.");
@@ -261,9 +261,10 @@ void SoftIntegrator::refuseStrangers() const
                          otherId = first ? interaction->id2 : interaction->id1;
         const auto& other = (*scene->bodies)[otherId];
         if (soft_.of(grain) < 0 || !other || !other->shape) continue;
-        throw std::runtime_error("soft grain #" + std::to_string(grain) + " meets body #" + std::to_string(otherId) + ", a "
-                                 + other->shape->getClassName()
-                                 + ", and no functor knows their contact; soft grains touch soft grains, walls and boxes.");
+        throw std::runtime_error(
+            "soft grain #" + std::to_string(grain) + " meets body #" + std::to_string(otherId) + ", a "
+            + other->shape->getClassName()
+            + ", and no functor knows their contact; soft grains touch soft grains, walls, boxes, spheres and facets.");
     }
 }
 

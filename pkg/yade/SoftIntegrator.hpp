@@ -38,7 +38,7 @@ public:
             GlobalEngine,
             "Advances all soft grains by one step: internal forces of the material points, contacts of all interactions by Contact Dynamics "
             "(non-linear Gauss-Seidel), symplectic Euler. Stands behind InteractionLoop and NewtonIntegrator in O.engines; moves no other "
-            "bodies. Reactions on walls and boxes are in O.forces after the step. Forces and torques that other engines put on a grain through "
+            "bodies. Reactions on rigid bodies are in O.forces after the step. Forces and torques that other engines put on a grain through "
             "O.forces act on it as a whole, spread over its mass as gravity is. With O.trackEnergy the sum of the soft entries of O.energy stays "
             "what it was; NewtonIntegrator counts the grains once more, as rigid bodies, in kinetic and gravWork. 2D: forces, energies and "
             "masses are per metre of thickness.",

@@ -79,7 +79,8 @@ void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
     else {
         const auto& other = (*scene.bodies)[pair.id1];
         if (!other) return;
-        if (other->state->blockedDOFs != State::DOF_ALL)
+        const auto& mover = other->isClumpMember() ? (*scene.bodies)[other->clumpId] : other;
+        if (mover->state->blockedDOFs != State::DOF_ALL)
             throw std::runtime_error("body #" + std::to_string(pair.id1) + ", a " + other->shape->getClassName()
                                      + ", is free to move and touches soft grain #" + std::to_string(pair.id2)
                                      + "; only fixed or driven ones can (fixed=True, or blockedDOFs='xyzXYZ').");

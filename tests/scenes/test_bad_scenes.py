@@ -7,8 +7,8 @@ import re
 import sys
 
 from yade import O
-from yade.utils import box, facet, sphere, wall
-from yade.wrapper import (Body, Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ElastMat, ForceResetter,
+from yade.utils import box, facet, sphere, tetra, wall
+from yade.wrapper import (Body, Bo1_Sphere_Aabb, Bo1_Tetra_Aabb, Bo1_Wall_Aabb, ElastMat, ForceResetter,
                           FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop,
                           Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator,
                           Omega, State)
@@ -306,6 +306,26 @@ def knowing(kind, bound):
     return make
 
 
+def unaware_of(shape):
+    """Engines whose InteractionLoop knows one shape less."""
+    def make():
+        engines = softEngines()
+        loop = next(engine for engine in engines if isinstance(engine, InteractionLoop))
+        loop.geomDispatcher.functors = [functor for functor in loop.geomDispatcher.functors
+                                        if type(functor).__name__ != f"Ig2_{shape}_SoftGrain_SoftGeom"]
+        return engines
+    return make
+
+
+def a_facet():
+    return facet(((-3e-3, -1.01e-3, -1e-3), (3e-3, -1.01e-3, -1e-3), (0, -1.01e-3, 5e-3)), material="stone")
+
+
+def thrown(body):
+    body.state.vel = (0, NAN, 0)
+    return body
+
+
 def wall_of(**material):
     def make():
         return wall(-1.01e-3, axis=1, sense=1, material=FrictMat(**material))
@@ -352,10 +372,17 @@ def periodic():
 
 
 BODIES = [
-    ("a sphere", beside(lambda: sphere((0, -2.01e-3, 0), 1e-3, material="stone"),
-                        engines=knowing("sphere", Bo1_Sphere_Aabb)), ["#0", "#1", "Sphere"]),
-    ("a facet", beside(lambda: facet(((-3e-3, -1.01e-3, -1e-3), (3e-3, -1.01e-3, -1e-3), (0, -1.01e-3, 5e-3)),
-                                     material="stone"), engines=knowing("facet", Bo1_Facet_Aabb)), ["#0", "#1", "Facet"]),
+    ("a tetrahedron", beside(lambda: tetra(((-3e-3, -1.01e-3, -1e-3), (3e-3, -1.01e-3, -1e-3), (0, -1.01e-3, 5e-3),
+                                            (0, -3e-3, 0)), material="stone"),
+                             engines=knowing("tetra", Bo1_Tetra_Aabb)), ["#0", "#1", "Tetra"]),
+    ("a sphere without its functor", beside(lambda: sphere((0, -2.01e-3, 0), 1e-3, material="stone", fixed=True),
+                                            engines=unaware_of("Sphere")), ["Ig2_Sphere_SoftGrain_SoftGeom"]),
+    ("a facet without its functor", beside(a_facet, engines=unaware_of("Facet")), ["Ig2_Facet_SoftGrain_SoftGeom"]),
+    ("a sphere without bound", beside(lambda: sphere((0, -2.01e-3, 0), 1e-3, material="stone", fixed=True),
+                                      engines=knowing("sphere", Bo1_Wall_Aabb)), ["#1", "Sphere", "Bo1_Sphere_Aabb"]),
+    ("a sphere that is free to move", beside(lambda: sphere((0, -2.01e-3, 0), 1e-3, material="stone")),
+     ["#1", "Sphere", "fixed"]),
+    ("a facet whose velocity turns NaN", beside(lambda: thrown(a_facet())), ["#1", "facet", "finite"]),
     ("a wall without friction angle", beside(wall_of(frictionAngle=NAN)), ["#0", "#1", "friction", "nan"]),
     ("a wall of negative friction angle", beside(wall_of(frictionAngle=-1)), ["#0", "#1", "friction", "-1"]),
     ("a wall of ElastMat", beside(lambda: wall(-1.01e-3, axis=1, sense=1, material=ElastMat())),

@@ -13,6 +13,8 @@ namespace {
     constexpr double skin = 0.1;
     /// A gap along the interpolated normal shrinks by little more than the bodies move.
     constexpr double safe_share = 0.8;
+    /// How far ends of lines may enter: where lines join, points on them hold the body, not the joint [size of the other body].
+    constexpr double end_depth = 1e-3;
 
     /// Forces of the last step go to the same points; both lists are in the same order.
     template <int Dim> void carry_forces(const std::vector<ContactPoint<Dim>>& old, std::vector<ContactPoint<Dim>>& fresh)
@@ -25,6 +27,24 @@ namespace {
             if (before != old.end() && key(*before) == key(contact)) contact.force = before->force;
         }
     }
+
+    /// Where a point stands against the chord of a segment, drawn out at both ends: t is not bounded.
+    Projection against_chord(const Surface<2>& surface, const Vec<2>& x, int segment)
+    {
+        const int n = surface.count, next = (segment + 1) % n;
+        const Vec<2> start = surface.x(segment), chord = surface.x(next) - start;
+        const double t = (x - start).dot(chord) / chord.squaredNorm();
+        const Vec<2> normal = Vec<2>(chord.y(), -chord.x()).normalized();
+        return { segment,
+                 t,
+                 { (segment + n - 1) % n, segment, next, (next + 1) % n },
+                 { 0, 1 - t, t, 0 },
+                 normal,
+                 normal.dot(x - start) };
+    }
+
+    /// The point faces the line, and is not on its way round an end.
+    bool faces(const Surface<2>& line, const Projection& at) { return at.t >= 0 && at.t <= 1 && at.gap > -2 * line.size; }
 
 } // namespace
 
@@ -41,7 +61,8 @@ template <int Dim> double allowance(const Surface<Dim>& larger, int point, const
 
 template <int Dim> double bulge(const Surface<Dim>& surface)
 {
-    return surface.mobility > 0 ? 2 * M_PI * surface.size / surface.count / 8 : 0;
+    return surface.mobility > 0 || surface.kind == Surface<Dim>::Kind::round ? 2 * M_PI * surface.size / surface.count / 8
+                                                                             : 0;
 }
 
 template <int Dim>
@@ -55,17 +76,23 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         if (of_larger && mine.mobility == 0 && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
-        const Projection at = project(other, x, nearest_segment(other, x), 0.5);
+        const Projection at = other.kind == Surface<Dim>::Kind::line ? against_chord(other, x, 0)
+                                                                     : project(other, x, nearest_segment(other, x), 0.5);
         if (at.gap + (of_larger ? allowance(mine, p, other) : 0) < margin) found.push_back({ p, at.segment, at.t, 0 });
     }
 }
 
 namespace {
 
+    template <int Dim> bool shows_faces(const Surface<Dim>& body)
+    {
+        return body.mobility == 0 && body.kind != Surface<Dim>::Kind::round;
+    }
+
     /// A rigid polygon shows its faces, however thin it is.
     template <int Dim> bool second_is_smaller(const Surface<Dim>& first, const Surface<Dim>& second)
     {
-        return second.mobility > 0 && (first.mobility == 0 || second.size < first.size);
+        return second.mobility > 0 && (shows_faces(first) || second.size < first.size);
     }
 
     template <int Dim> double reach_of_pair(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
@@ -109,14 +136,22 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
                 memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
                 continue;
             }
-            Projection at = project(other, mine.x(candidate.point), candidate.face, candidate.place);
-            const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
+            const Vec<Dim> x = mine.x(candidate.point);
+            const bool on_line = other.kind == Surface<Dim>::Kind::line;
+            Projection at = on_line ? against_chord(other, x, 0) : project(other, x, candidate.face, candidate.place);
+            double let = mine_small ? 0 : allowance(mine, candidate.point, other);
+            if (mine.kind == Surface<Dim>::Kind::line) { // outlines bulge over the joints of lines, chords do not
+                const Projection straight = against_chord(other, x, at.segment);
+                let = straight.gap - at.gap + end_depth * other.size;
+                at.normal = straight.normal;
+                at.weight = straight.weight;
+            }
             at.gap += let;
             candidate.face = at.segment;
             candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
             memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
-            if (at.gap >= near) continue;
+            if (at.gap >= near || (on_line && !faces(other, at))) continue;
             fresh.push_back({ candidate.point, on_second, at.segment, at.vertex, at.weight, at.normal, at.gap, let });
         }
     }

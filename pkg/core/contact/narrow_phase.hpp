@@ -32,7 +32,7 @@ template <int Dim> double reach(const Surface<Dim>& a, double other_speed, doubl
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller);
 
 /// How far the outline may reach out of the box of its points [m]. The middle of a segment of length s that turns by an angle is
-/// s angle / 8 off its chord; the angle is taken as 1. Rigid polygons are straight: 0.
+/// s angle / 8 off its chord; the angle is taken as 1. Rigid polygons and lines are straight: 0.
 template <int Dim> double bulge(const Surface<Dim>& surface);
 
 template <int Dim> class PairContacts {

@@ -10,6 +10,10 @@ namespace softgrain {
 /// The boundary of a body as contact sees it, in world coordinates. A soft grain fills it every step from its
 /// grid; a rigid polygon from its motion.
 template <int Dim> struct Surface {
+    /// What a rigid body shows: a polygon its faces, and its corners to grains; a round one is like a grain, its points meet
+    /// larger grains; a line its first segment and its corners.
+    enum class Kind { polygon, round, line };
+
     int count = 0;
     std::vector<double> position;        ///< [point][Dim] [m], counter-clockwise in 2D
     std::vector<double> velocity;        ///< [point][Dim] [m/s]; the contact solver works on it
@@ -25,6 +29,7 @@ template <int Dim> struct Surface {
     double ahead = 0;                                        ///< further look for contacts, of long steps [m]
     double size = 0;                                         ///< radius, or half the least width [m]
     double mobility = 0;                                     ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
+    Kind kind = Kind::polygon;                               ///< of a rigid body
     const SurfaceOperator<Dim>* response = nullptr;          ///< its Delassus operator; none for rigid bodies
 
     void resize(int points)
