@@ -80,6 +80,7 @@ std::vector<softgrain::BarrierContact<2>> SoftImplicitScene::contacts(double ahe
             geom.plane.look(pair.second->grain.surface, geom.axis, position, geom.side, near + std::abs(speed) * dt);
         } else {
             const auto& surface = first(pair, dt);
+            geom.pair.memory = {}; // feet follow from places alone, so that a run goes on the same after a break
             geom.pair.look(surface, pair.second->grain.surface, near + (pair.rigid ? surface.speed * dt : 0));
         }
         for (const auto& point : geom.points()) {

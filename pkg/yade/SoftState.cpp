@@ -97,6 +97,7 @@ void SoftState::prepare(const Body& body)
         fresh.refresh();
         fresh.elastic_energy();
         fresh.surface.travel = travel;
+        fresh.surface.ahead = ahead;
     }
     grain = fresh;
     known_ = body.material;
@@ -263,6 +264,7 @@ void SoftState::preSave(SoftState&)
     nodeVelocity = grain.velocity;
     if (grain.updated) pointState = grain.updated->packed();
     travel = grain.surface.travel;
+    ahead = grain.surface.ahead;
 }
 
 boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }

@@ -96,6 +96,7 @@ public:
                      "Contact force along x and y [N/m] and torque [N] in the last step, where these are blocked."))(
                     (Real, workByHand, 0, Attr::hidden, "Work of velocities set by hand that has not been accounted for [J/m]."))(
                     (Real, travel, 0, Attr::hidden, "Bound on the path of any surface point since the start [m]."))(
+                    (Real, ahead, 0, Attr::hidden, "How far to look for contacts besides what speeds tell [m]."))(
                     (int, format, currentFormat, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),
             .def("pointPositions", &SoftState::pointPositions, "Current positions of the material points, (points, 2) [m].")

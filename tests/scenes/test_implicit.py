@@ -67,7 +67,7 @@ def resumed(checks):
         checks.that("resumed", run.returncode == 0, said(run))
         whole, parts = (read_table(os.path.join(folder, name, "compaction.csv")) for name in ("whole", "parts"))
         error = abs(whole["stress_top_Pa"] - parts["stress_top_Pa"]).max() / whole["stress_top_Pa"].max()
-        checks.that("the same", error < 1e-2, error)    # stresses of equilibria that Newton's method finds to 1e-3
+        checks.that("the same", error < 1e-9, error)
 
 
 def auto(checks):

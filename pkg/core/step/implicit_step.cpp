@@ -281,7 +281,7 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
     scene_ = &scene;
     settings_ = settings;
     settings_.regularisation *= hold;
-    damping_ = 0;
+    damping_ = kappa_ = 0;
     factor_age_ = 0;
     begin(dt, gravity);
     condense();
