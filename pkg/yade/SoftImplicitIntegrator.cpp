@@ -41,10 +41,7 @@ void SoftImplicitIntegrator::advance(double dt)
     seen_.begin(*scene, dt, wallsAhead(), [this] { search(); });
     run_->substep = substep;
     run_->step.hold = hold;
-    run_->advance(dt, settings, gravity.head<2>(), seen_, [&](double h, const softgrain::ImplicitStep<2>::Outcome&) {
-        const double weight = (quasistatic ? 1 : theta) * h;
-        take(h, weight / dt);
-    });
+    run_->advance(dt, settings, gravity.head<2>(), seen_, [&](double h, const auto& outcome) { take(h, dt, outcome); });
     watch.stage(2);
 
     pairs_.deliver(*scene);
@@ -72,17 +69,16 @@ void SoftImplicitIntegrator::advance(double dt)
     watch.stage(3);
 }
 
-/// What comes of a substep.
-void SoftImplicitIntegrator::take(double dt, Real share)
+/// What comes of a substep of the whole step.
+void SoftImplicitIntegrator::take(double dt, double whole, const softgrain::ImplicitStep<2>::Outcome& outcome)
 {
     seen_.pass(dt);
     pairs_.problem = run_->step.problem;
-    softgrain::EnergyBalance balance;
-    softgrain::Assembly<2>::account(pairs_.problem, balance);
-    frictionDissipation += balance.friction;
-    contactDissipation += balance.contact_dissipation;
-    externalWork += balance.external_work;
-    pairs_.add(quasistatic ? dt : theta * dt, share);
+    frictionDissipation += outcome.work.friction;
+    contactDissipation += outcome.work.contact_dissipation;
+    externalWork += outcome.work.external_work;
+    const double weighed = (quasistatic ? 1 : theta) * dt;
+    pairs_.add(weighed, weighed / whole);
     std::vector<softgrain::Vec<2>> before;
     for (const SoftState* state : soft_.states)
         before.push_back(state->grain.motion.position);

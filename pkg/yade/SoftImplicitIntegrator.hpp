@@ -21,7 +21,7 @@ public:
             "the same law as :yref:`SoftIntegrator`'s, or without inertia from one equilibrium to the next. O.dt is the largest step; where one "
             "fails, the engine cuts it into substeps. iterations and totalIterations count iterations of Newton's method; recovery, maxSweeps "
             "and checkInterval are of no use here.",
-            ((Real, theta, 1, , "Weight of the end of a step, from 1/2 (order 2, no dissipation, contacts chatter) to 1 (order 1, dissipates) [-]."))(
+            ((Real, theta, 1, , "Weight of the end of a step, from 1/2 (order 2, dissipates at contacts alone, cuts long steps) to 1 (order 1, dissipates) [-]."))(
                     (bool, quasistatic, false, , "No inertia: steps go from one equilibrium to the next."))(
                     (Real,
                      regularisation,
@@ -58,7 +58,7 @@ private:
     void search();
     bool wallsAhead() const;
     void refuseBlocked() const;
-    void take(double dt, Real share);
+    void take(double dt, double whole, const softgrain::ImplicitStep<2>::Outcome& outcome);
 
     std::unique_ptr<softgrain::ImplicitRun<2>> run_;
     SoftImplicitScene seen_ { soft_, pairs_ };

@@ -245,43 +245,89 @@ template <int Dim> void ImplicitGrains<Dim>::slide(SurfaceField& way) const
         }
 }
 
-// For a linear force the theta scheme loses (theta - 1/2) (|v' - v|^2_m - (f' - f) . (u' - u)).
-template <int Dim> double ImplicitGrains<Dim>::accept()
+template <int Dim> void ImplicitGrains<Dim>::accept()
 {
-    std::vector<double> lost(parts_.size());
+    const double theta = settings_.quasistatic ? 1 : settings_.theta;
+    each_part([&](Part& part) {
+        for (size_t k = 0; k < part.displacement.size(); ++k)
+            part.batch->velocity[k]
+                = ((part.batch->displacement[k] - part.displacement[k]) / dt_ - (1 - theta) * part.velocity[k]) / theta;
+    });
+}
+
+template <int Dim> void ImplicitGrains<Dim>::velocities(SurfaceField& velocity)
+{
+    each_part([&](Part& part) {
+        const size_t width = size_t(Dim) * part.batch->lanes;
+        for (int r = 0; r < part.pattern->rows; ++r)
+            std::copy_n(&part.batch->velocity[size_t(part.pattern->master[r]) * width], width,
+                        &part.direction[size_t(r) * width]);
+        interpolate(part, part.direction, velocity);
+    });
+}
+
+template <int Dim> void ImplicitGrains<Dim>::exchange_places()
+{
+    for (size_t g = 0; g < start_.size(); ++g)
+        assembly_.grains()[g]->surface.position.swap(start_[g]);
+}
+
+template <int Dim> void ImplicitGrains<Dim>::strike(const SurfaceField& impulses, double share)
+{
+    each_part([&](Part& part) {
+        Batch<Dim>& batch = *part.batch;
+        const size_t lanes = size_t(batch.lanes);
+        std::fill(part.loads.begin(), part.loads.end(), 0.0);
+        add_surface_forces(part, impulses, share, part.loads);
+        for (int r = 0; r < part.pattern->rows; ++r) {
+            const int i = part.pattern->master[r];
+            for (size_t d = 0; d < Dim; ++d)
+                for (size_t lane = 0; lane < lanes; ++lane)
+                    batch.velocity[(size_t(i) * Dim + d) * lanes + lane] += part.loads[(size_t(r) * Dim + d) * lanes + lane]
+                        * batch.mesh->inverse_mass[i] * batch.inverse_inertia[lane];
+        }
+    });
+}
+
+// With contact forces that work over the way, the scheme loses, for linear internal forces f,
+//     m (v' - v) . [(u' - u) / h - (v' + v) / 2] - (theta - 1/2) (f' - f) . (u' - u).
+template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::energy()
+{
+    const bool rest = settings_.quasistatic;
+    std::vector<Energy> of_part(parts_.size(), Energy {});
     each_part([&](Part& part) {
         Batch<Dim>& batch = *part.batch;
         const int lanes = batch.lanes;
-        const bool rest = settings_.quasistatic;
-        const double theta = rest ? 1 : settings_.theta;
         KernelData<Dim> data = batch.data();
         batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
-        if (rest) batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + lanes);
-        double sum = 0;
+        batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + lanes);
+        Energy& sum = of_part[size_t(&part - parts_.data())];
         for (size_t lane = 0; lane < part.members->size(); ++lane) {
             const Grain<Dim>& grain = *(*part.members)[lane];
-            const double mass = grain.density * grain.radius * grain.radius;
-            double of_grain = rest ? part.energy[lane] - batch.per_lane[lane] : 0;
+            const double mass = grain.density * grain.radius * grain.radius, unit = std::pow(grain.radius, Dim);
+            const double elastic = batch.per_lane[lane] - part.energy[lane];
+            double kinetic = 0, by_contacts = 0, by_loads = 0, lost = 0;
             for (int i = 0; i < batch.mesh->master_count; ++i)
                 for (int d = 0; d < Dim; ++d) {
                     const size_t k = (size_t(i) * Dim + d) * lanes + lane;
-                    const double way = batch.displacement[k] - part.displacement[k], m = batch.mesh->node_mass[i];
-                    const double v = (way / dt_ - (1 - theta) * part.velocity[k]) / theta, gain = v - part.velocity[k];
-                    if (rest)
-                        of_grain += way
-                            * (part.loads[(size_t(part.pattern->row_of[i]) * Dim + d) * lanes + lane]
-                               + part.inertia[lane] * m * part.lift[k]);
-                    else
-                        of_grain += (theta - 0.5) * (mass * m * gain * gain - (data.force[k] - part.force[k]) * way);
-                    batch.velocity[k] = v;
+                    const double way = batch.displacement[k] - part.displacement[k], m = mass * batch.mesh->node_mass[i],
+                                 v = batch.velocity[k], before = part.velocity[k];
+                    by_contacts += way * part.loads[(size_t(part.pattern->row_of[i]) * Dim + d) * lanes + lane];
+                    by_loads
+                        += way * part.inertia[lane] * batch.mesh->node_mass[i] * part.lift[k] * (rest ? 1 : settings_.theta);
+                    if (rest) continue;
+                    kinetic += m * (v * v - before * before) / 2;
+                    lost += m * (v - before) * (way / dt_ - (v + before) / 2)
+                        - (settings_.theta - 0.5) * (data.force[k] - part.force[k]) * way;
                 }
-            sum += std::pow(grain.radius, Dim) * of_grain;
+            sum.gained += unit * (kinetic + elastic - by_loads);
+            sum.exchanged += unit * (std::abs(kinetic) + std::abs(elastic));
+            sum.dissipated += unit * (rest ? by_contacts + by_loads - elastic : lost);
         }
-        lost[size_t(&part - parts_.data())] = sum;
     });
-    double total = 0;
-    for (double part : lost)
-        total += part;
+    Energy total {};
+    for (const Energy& part : of_part)
+        total = { total.gained + part.gained, total.exchanged + part.exchanged, total.dissipated + part.dissipated };
     return total;
 }
 
@@ -289,6 +335,7 @@ template <int Dim> void ImplicitGrains<Dim>::restore()
 {
     each_part([&](Part& part) {
         std::copy(part.displacement.begin(), part.displacement.end(), part.batch->displacement.begin());
+        std::copy(part.velocity.begin(), part.velocity.end(), part.batch->velocity.begin());
         motion_kernels<Dim>().extend[part.batch->wide()](part.batch->data());
         for (size_t lane = 0; lane < part.members->size(); ++lane)
             (*part.members)[lane]->surface.position = start_[part.index[lane]];

@@ -6,6 +6,7 @@
 #include "step/stiffness.hpp"
 
 #include <map>
+#include <numeric>
 
 namespace softgrain {
 
@@ -87,9 +88,22 @@ public:
     /// Way of the surfaces since the start of the step [m].
     void slide(SurfaceField& way) const;
 
-    /// Takes the last place as the end of the step, under the contact forces of the last load; returns the energy that the
-    /// scheme dissipated [J]; quasi-static: all work of these forces and of loads that is not stored.
-    double accept();
+    /// Takes the last place as the end of the step; velocities follow from the way.
+    void accept();
+    /// Velocities of the surfaces at the end of the step [m/s].
+    void velocities(SurfaceField& velocity);
+    /// Puts the surfaces at the start of the step; called again, back.
+    void exchange_places();
+    /// Gives impulses at the surfaces, `share` times these [N s].
+    void strike(const SurfaceField& impulses, double share);
+    /// Of the accepted step [J].
+    struct Energy {
+        double gained;    ///< kinetic and elastic, less the work of body forces
+        double exchanged; ///< changes of kinetic and elastic energies of all grains, without their signs
+        double
+            dissipated; ///< by the scheme; quasi-static: all work of the contact forces of the last load that is not stored
+    };
+    Energy energy();
     /// Back to the start of the step.
     void restore();
 
@@ -118,7 +132,12 @@ private:
         for (int b = 0; b < count; ++b)
             work(parts_[size_t(b)]);
     }
-    template <class Work> double sum_over_parts(const Work& work);
+    template <class Work> double sum_over_parts(const Work& work)
+    {
+        std::vector<double> of_part(parts_.size());
+        each_part([&](Part& part) { of_part[size_t(&part - parts_.data())] = work(part); });
+        return std::accumulate(of_part.begin(), of_part.end(), 0.0);
+    }
     static double dot(const Part& part, const AlignedVector& a, const AlignedVector& b);
     void add_surface_forces(const Part& part, const SurfaceField& forces, double share, AlignedVector& rows) const;
     void interpolate(Part& part, const AlignedVector& rows, SurfaceField& way) const;

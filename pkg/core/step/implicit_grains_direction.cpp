@@ -107,16 +107,6 @@ template <int Dim> void ImplicitGrains<Dim>::solve(SurfaceField& way, const Surf
     });
 }
 
-template <int Dim> template <class Work> double ImplicitGrains<Dim>::sum_over_parts(const Work& work)
-{
-    std::vector<double> of_part(parts_.size());
-    each_part([&](Part& part) { of_part[size_t(&part - parts_.data())] = work(part); });
-    double sum = 0;
-    for (double value : of_part)
-        sum += value;
-    return sum;
-}
-
 /// Product of two vectors of rows, a force and a displacement [J].
 template <int Dim> double ImplicitGrains<Dim>::dot(const Part& part, const AlignedVector& a, const AlignedVector& b)
 {

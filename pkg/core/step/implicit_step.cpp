@@ -298,8 +298,11 @@ typename ImplicitStep<Dim>::Outcome ImplicitStep<Dim>::attempt(double dt, const 
             && (!settings.quasistatic || free || outcome.stages >= settings.most_stages)) {
             outcome.converged = true;
             if (settings.quasistatic) choose_hold(outcome);
-            outcome.dissipated = grains_.accept();
+            grains_.accept();
             fill_problem(dt);
+            begun_.contacts.clear();
+            if (!settings.quasistatic && settings.theta < 1) give_impulses(dt);
+            take_stock(outcome);
             return outcome;
         }
         if (settings.quasistatic && touching && !free && outcome.stages < settings.most_stages
@@ -363,6 +366,74 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
         contact.gap_speed = from.gap / dt - rate;
         problem.contacts.push_back(contact);
     }
+}
+
+/// Impulses of the step where theta < 1. Those of the contact forces, which close the gaps at its end, would turn velocities
+/// around in every step. Instead contacts give 1 - theta of these at the start, where they were and along the normals there,
+/// and at the end what the law in velocities says, of points that press on each other.
+template <int Dim> void ImplicitStep<Dim>::give_impulses(double dt)
+{
+    static const SignoriniCoulomb<Dim> law;
+    const auto exchange_velocities = [&] {
+        for (size_t g = 0; g < assembly_.grains().size(); ++g)
+            scene_->bodies[g]->velocity.swap(moved_[g]);
+    };
+    grains_.strike(contact_forces(), -settings_.theta * dt);
+    const std::vector<BarrierContact<Dim>> end = contacts;
+    grains_.exchange_places();
+    locate();
+    grains_.exchange_places();
+    clear(forces_);
+    begun_ = problem;
+    for (size_t c = 0; c < contacts.size(); ++c) {
+        auto& begun = begun_.contacts[c];
+        if (begun.impulse == Vec<Dim>::Zero()) continue;
+        begun.weight = contacts[c].weight;
+        begun.vertex = contacts[c].vertex;
+        begun.normal = contacts[c].normal;
+        begun.impulse = (1 - settings_.theta) * settings_.theta * dt * contacts[c].total();
+        add_force<Dim>(contacts[c], begun.impulse, forces_);
+    }
+    contacts = end;
+    grains_.strike(forces_, 1);
+    grains_.velocities(moved_);
+    ContactProblem<Dim> pressed;
+    pressed.bodies = problem.bodies;
+    for (auto& contact : problem.contacts) {
+        if (contact.impulse == Vec<Dim>::Zero()) continue;
+        contact.law = &law;
+        contact.impulse *= settings_.theta;
+        pressed.contacts.push_back(contact);
+        pressed.contacts.back().gap_speed = 0;
+    }
+    exchange_velocities();
+    velocity_solver_.tolerance = 1e-3 * settings_.tolerance;
+    velocity_solver_.threads = settings_.threads;
+    velocity_solver_.solve(pressed);
+    exchange_velocities();
+    clear(forces_);
+    auto solved = pressed.contacts.begin();
+    for (size_t c = 0; c < contacts.size(); ++c) {
+        Vec<Dim>& impulse = problem.contacts[c].impulse;
+        if (impulse == Vec<Dim>::Zero()) continue;
+        impulse = (solved++)->impulse;
+        add_force<Dim>(contacts[c], impulse, forces_);
+    }
+    grains_.strike(forces_, 1);
+}
+
+/// Energies of the step, and the impulses of its start and end together.
+template <int Dim> void ImplicitStep<Dim>::take_stock(Outcome& outcome)
+{
+    const auto energy = grains_.energy();
+    Assembly<Dim>::account(problem, outcome.work);
+    Assembly<Dim>::account(begun_, outcome.work);
+    for (size_t c = 0; c < begun_.contacts.size(); ++c)
+        problem.contacts[c].impulse += begun_.contacts[c].impulse;
+    outcome.dissipated = energy.dissipated;
+    const double missing = energy.gained + outcome.dissipated + outcome.work.friction + outcome.work.contact_dissipation
+        - outcome.work.external_work;
+    outcome.missing_energy = std::abs(missing) / std::max(energy.exchanged, 1e-300);
 }
 
 template class ImplicitStep<2>;

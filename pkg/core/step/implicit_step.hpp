@@ -3,6 +3,7 @@
 
 #include "solver/condensed_contacts.hpp"
 #include "solver/contact_turning.hpp"
+#include "solver/nlgs.hpp"
 #include "step/implicit_grains.hpp"
 
 namespace softgrain {
@@ -37,20 +38,24 @@ public:
 
     struct Outcome {
         bool converged = false;
-        std::string trouble;    ///< why not
-        int iterations = 0;     ///< of Newton's method
-        int stages = 1;         ///< quasi-static: places that the grains were held at
-        double held = 0;        ///< quasi-static: what still holds them, over contact forces
-        double residual = 0;    ///< of the contacts, Siconos's measure
-        double unbalanced = 0;  ///< forces that lack balance over contact forces
-        double distance = 0;    ///< mean gap, weighted by the forces [radius of the smaller body]
-        double penetration = 0; ///< deepest [radius of the smaller body]
-        double dissipated = 0;  ///< by the scheme [J]
+        std::string trouble;       ///< why not
+        int iterations = 0;        ///< of Newton's method
+        int stages = 1;            ///< quasi-static: places that the grains were held at
+        double held = 0;           ///< quasi-static: what still holds them, over contact forces
+        double residual = 0;       ///< of the contacts, Siconos's measure
+        double unbalanced = 0;     ///< forces that lack balance over contact forces
+        double distance = 0;       ///< mean gap, weighted by the forces [radius of the smaller body]
+        double penetration = 0;    ///< deepest [radius of the smaller body]
+        double dissipated = 0;     ///< by the scheme [J]
+        EnergyBalance work;        ///< of the contacts in the step
+        double missing_energy = 0; ///< that the balance of the step lacks, over changes of kinetic and elastic energies
     };
     /// Moves the grains by a step; leaves them at its start when it does not converge. After success `contacts` holds the
     /// contact forces, and velocities and start values for `Assembly::renew` are set.
     Outcome attempt(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity, ImplicitScene<Dim>& scene);
 
+    /// Takes a step back that was a success.
+    void undo() { grains_.restore(); }
     /// Quasi-static: share of the regularisation that the next step begins with. Smaller after a step whose grains were held
     /// too firmly to be in balance at once, larger after one that took many iterations.
     double hold = 1;
@@ -83,6 +88,8 @@ private:
     void change_forces(const Eigen::VectorXd& by);
     double largest_share(double BarrierContact<Dim>::*value, double BarrierContact<Dim>::*step) const;
     void fill_problem(double dt);
+    void give_impulses(double dt);
+    void take_stock(Outcome& outcome);
 
     static constexpr double fraction_to_boundary = 0.995;
     static constexpr int most_uses_of_factors = 4;
@@ -91,6 +98,7 @@ private:
     ImplicitGrains<Dim> grains_;
     CondensedContacts<Dim> system_;
     ContactTurning<Dim> turning_;
+    NonlinearGaussSeidel<Dim> velocity_solver_;
     ImplicitScene<Dim>* scene_ = nullptr;
     ImplicitSettings settings_;
     typename ImplicitGrains<Dim>::Place place_ {};
@@ -98,6 +106,7 @@ private:
     std::vector<int> points_;
     /// Of the contact system: way along normals and tangents without changes of forces, and the one wished for.
     Eigen::VectorXd free_, target_;
+    ContactProblem<Dim> begun_; ///< impulses at the start of a step
     double kappa_ = 0, damping_ = 0;
     bool sorted_ = false;      ///< contacts into those that count in the linear system and those that stand off
     int factor_age_ = 0;       ///< iterations that the factors have served

@@ -108,6 +108,29 @@ TEST(ImplicitStep, AccountsForTheEnergyThatTheSchemeDissipates)
     EXPECT_NEAR(press.residual(), 0, 5e-3);
 }
 
+// Contacts included. The balance is that of the whole run, at steps that keep to it and at longer ones that are cut.
+TEST(ThetaScheme, BalancesEnergyAtOneHalf)
+{
+    for (double friction : { 0.0, 0.3 })
+        for (double dt : { 2e-6, 2e-5, 2e-4 }) {
+            Press press(friction);
+            press.world.settings.theta = 0.5;
+            press.go(0.93, dt);
+            std::printf(
+                "theta 1/2, friction %.1f, steps of %.0e s: %d iterations, %d substeps, %d cuts, scheme dissipates %+.3f "
+                "of the work, residual %+.1e\n",
+                friction, dt, press.world.iterations, press.world.substeps, press.world.cuts,
+                press.world.dissipated / press.world.balance.external_work, press.residual());
+            EXPECT_NEAR(press.residual(), 0, 5e-3);
+            if (dt < 1e-4) {
+                EXPECT_NEAR(press.world.dissipated / press.world.balance.external_work, 0, 0.02);
+            }
+            EXPECT_GT(press.world.lost(), 0);
+            EXPECT_LE(press.world.worst_penetration, 1e-4);
+            EXPECT_LE(press.world.worst_residual, press.world.settings.tolerance);
+        }
+}
+
 // Coulomb: with friction every contact force lies in its cone, and the residual, which knows of sliding, is below the
 // tolerance in every step.
 TEST(ImplicitStep, CarriesFrictionToConvergence)

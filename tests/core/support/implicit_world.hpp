@@ -27,7 +27,9 @@ public:
             last = outcome;
             worst_penetration = std::max(worst_penetration, outcome.penetration);
             worst_residual = std::max(worst_residual, outcome.residual);
-            Assembly<2>::account(run_->step.problem, balance);
+            balance.external_work += outcome.work.external_work;
+            balance.friction += outcome.work.friction;
+            balance.contact_dissipation += outcome.work.contact_dissipation;
             plane_force.assign(planes.size(), Vec<2>::Zero());
             for (size_t c = 0; c < run_->step.contacts.size(); ++c) {
                 const auto& contact = run_->step.contacts[c];
