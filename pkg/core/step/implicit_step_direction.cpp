@@ -142,7 +142,7 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
             ++counted;
             now += contact.slack * contact.force;
             then += (contact.slack + primal * contact.slack_step) * (contact.force + dual * contact.force_step);
-            floor += contact.force * contact.size;
+            floor += contact.force * std::min(contact.size, 1e4 * contact.force * contact.compliance);
             correction[Eigen::Index(c)] = primal * dual * contact.slack_step * contact.force_step;
         }
         for (double* sum : { &now, &then, &floor })

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The implicit step: order in time, energy, contact that never penetrates, equilibria that depend on nothing but the loads.
+#include "grain/outline.hpp"
 #include "support/implicit_world.hpp"
 #include "support/twelve_discs.hpp"
 
@@ -96,6 +97,24 @@ TEST(ImplicitStep, IsCleanAtAnyLength)
         EXPECT_GT(press.world.min_J(), 0.5);
         EXPECT_LE(press.world.last.distance, 1e-5);
     }
+}
+
+// Steps so short that the forces stop the faces at once: gaps have to close to a share of next to nothing.
+TEST(ImplicitStep, StartsFromFlatFacesInTouch)
+{
+    const Mesh square = mesh_of(PolygonOutline({ { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } }), 276);
+    for (double theta : { 1.0, 0.5 })
+        for (double dt : { 1e-10, 1e-8, 1e-6, 1e-5 }) {
+            ImplicitWorld world;
+            world.settings.theta = theta;
+            const Surface<2>& surface = world.add(make_grain(square, neo_hookean())).surface;
+            world.planes = { { 1, 1, surface.min[1], 0.5 }, { 1, -1, surface.max[1], -0.5 } };
+            for (int k = 0; k < 5; ++k)
+                world.step(dt);
+            EXPECT_LE(world.cuts, 2);
+            EXPECT_LE(world.worst_residual, world.settings.tolerance);
+            EXPECT_LE(world.worst_penetration, 1e-4);
+        }
 }
 
 TEST(ImplicitStep, AccountsForTheEnergyThatTheSchemeDissipates)
