@@ -114,7 +114,7 @@ template <int Dim> double ImplicitStep<Dim>::merit(double potential) const
     return sum;
 }
 
-/// Mean of the contacts' stiffnesses along their normals, those that are known [N/m].
+/// Mean of the contacts' stiffnesses along their normals, those that are known, or about what a grain's is [N/m].
 template <int Dim> double ImplicitStep<Dim>::mean_stiffness() const
 {
     double sum = 0;
@@ -124,7 +124,7 @@ template <int Dim> double ImplicitStep<Dim>::mean_stiffness() const
             sum += 1 / contact.compliance;
             ++known;
         }
-    return known ? sum / known : 0;
+    return known ? sum / known : shear_modulus_;
 }
 
 /// || r - P_K(r - u - mu |u_t| n) || / max(|r|, |u|) with u = (gap, slide) in units of force through the mean stiffness.

@@ -114,6 +114,7 @@ template <int Dim> void ImplicitStep<Dim>::change_forces(const Eigen::VectorXd& 
 template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome)
 {
     using Contact = BarrierContact<Dim>;
+    constexpr double least_left = 1e-2; // of kappa, after an iteration
     Eigen::VectorXd diagonal(system_.rows()), change(system_.rows());
     target_.resize(system_.rows());
     grains_.solve(moved_);
@@ -150,9 +151,10 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
         // once low enough kappa need not fall further; it must not rise again either, or the two would take turns
         const double low = 1e-6 * settings_.tolerance * floor;
         floor = outcome.residual > 0.5 * settings_.tolerance ? low : std::clamp(kappa_, low, 1e3 * low);
-        kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), 1e-2, 1.0));
+        kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), least_left, 1.0));
         change = solve_contacts(kappa_, correction);
-    }
+    } else
+        kappa_ *= least_left;
     grains_.solve(moved_, &at_surfaces(change));
     refine(change);
     grains_.take_direction(moved_);

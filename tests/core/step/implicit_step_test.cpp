@@ -117,6 +117,25 @@ TEST(ImplicitStep, StartsFromFlatFacesInTouch)
         }
 }
 
+// A plane ahead that is near enough to be looked at but not to be reached neither stops a grain nor costs iterations.
+TEST(ImplicitStep, LeavesGrainsAloneThatStandOff)
+{
+    const double speed = 1;
+    for (double theta : { 1.0, 0.8, 0.5 })
+        for (double dt : { 1e-8, 1e-7, 1e-6, 1e-5 }) {
+            ImplicitWorld world;
+            world.settings.theta = theta;
+            const Vec<2> centre = Vec<2>::Zero(), velocity(speed, 0);
+            const Grain<2>& grain = world.add(make_grain(disc_mesh(124), neo_hookean(), { centre, 0, velocity }));
+            world.planes = { { 0, -1, grain.surface.max[0] + 0.05e-3 + 3 * speed * dt, 0 } };
+            for (int k = 0; k < 3; ++k)
+                world.step(dt);
+            EXPECT_EQ(world.cuts, 0);
+            EXPECT_LE(world.iterations, 6);
+            EXPECT_NEAR(grain.motion.velocity[0] / speed, 1, 1e-3) << "theta " << theta << ", steps of " << dt << " s";
+        }
+}
+
 TEST(ImplicitStep, AccountsForTheEnergyThatTheSchemeDissipates)
 {
     Press press;
