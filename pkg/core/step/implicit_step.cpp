@@ -433,7 +433,11 @@ template <int Dim> void ImplicitStep<Dim>::take_stock(Outcome& outcome)
     outcome.dissipated = energy.dissipated;
     const double missing = energy.gained + outcome.dissipated + outcome.work.friction + outcome.work.contact_dissipation
         - outcome.work.external_work;
-    outcome.missing_energy = std::abs(missing) / std::max(energy.exchanged, 1e-300);
+    double way = least_force_ / shear_modulus_; // of forces that count as none
+    for (const auto& ways : way_)
+        for (double along : ways)
+            way = std::max(way, std::abs(along));
+    outcome.missing_energy = std::abs(missing) / (energy.exchanged + least_force_ * way);
 }
 
 template class ImplicitStep<2>;

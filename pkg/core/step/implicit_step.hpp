@@ -38,17 +38,19 @@ public:
 
     struct Outcome {
         bool converged = false;
-        std::string trouble;       ///< why not
-        int iterations = 0;        ///< of Newton's method
-        int stages = 1;            ///< quasi-static: places that the grains were held at
-        double held = 0;           ///< quasi-static: what still holds them, over contact forces
-        double residual = 0;       ///< of the contacts, Siconos's measure
-        double unbalanced = 0;     ///< forces that lack balance over contact forces
-        double distance = 0;       ///< mean gap, weighted by the forces [radius of the smaller body]
-        double penetration = 0;    ///< deepest [radius of the smaller body]
-        double dissipated = 0;     ///< by the scheme [J]
-        EnergyBalance work;        ///< of the contacts in the step
-        double missing_energy = 0; ///< that the balance of the step lacks, over changes of kinetic and elastic energies
+        std::string trouble;    ///< why not
+        int iterations = 0;     ///< of Newton's method
+        int stages = 1;         ///< quasi-static: places that the grains were held at
+        double held = 0;        ///< quasi-static: what still holds them, over contact forces
+        double residual = 0;    ///< of the contacts, Siconos's measure
+        double unbalanced = 0;  ///< forces that lack balance over contact forces
+        double distance = 0;    ///< mean gap, weighted by the forces [radius of the smaller body]
+        double penetration = 0; ///< deepest [radius of the smaller body]
+        double dissipated = 0;  ///< by the scheme [J]
+        EnergyBalance work;     ///< of the contacts in the step
+        /// That the balance of the step lacks, over changes of kinetic and elastic energies and what forces that count as none
+        /// work.
+        double missing_energy = 0;
     };
     /// Moves the grains by a step; leaves them at its start when it does not converge. After success `contacts` holds the
     /// contact forces, and velocities and start values for `Assembly::renew` are set.
