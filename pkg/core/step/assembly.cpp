@@ -93,7 +93,23 @@ namespace {
             surface.v(p) = grain.radius * body.velocity_at_surface(p);
     }
 
-    template <int Dim> void correct_updated(Grain<Dim>& grain, double dt)
+    /// Lays the grid anew where the points of a grain have gone, if they have gone anywhere; what is wrong with that.
+    template <int Dim> std::string settle_updated(Grain<Dim>& grain, bool gone)
+    {
+        if (!gone) {
+            grain.motion.kinetic = std::numeric_limits<double>::quiet_NaN();
+            return "";
+        }
+        try {
+            grain.settle();
+        } catch (const SimulationError& error) { // must not leave the parallel loop
+            return error.what();
+        }
+        grain.surface.bound();
+        return "";
+    }
+
+    template <int Dim> std::string correct_updated(Grain<Dim>& grain, double dt)
     {
         UpdatedBody<Dim>& body = *grain.updated;
         Surface<Dim>& surface = grain.surface;
@@ -108,13 +124,24 @@ namespace {
         surface.struck = false;
         surface.speed = std::sqrt(speed2);
         surface.travel += dt * surface.speed;
-        if (leaps(grain, dt)) return;
-        if (!body.drift(dt)) {
-            grain.motion.kinetic = std::numeric_limits<double>::quiet_NaN();
-            return;
+        return leaps(grain, dt) ? "" : settle_updated(grain, body.drift(dt));
+    }
+
+    /// Nodes have been moved by another scheme.
+    template <int Dim> std::string take_updated(Grain<Dim>& grain, double dt)
+    {
+        const std::string complaint = settle_updated(grain, grain.updated->arrive(dt));
+        Surface<Dim>& surface = grain.surface;
+        surface.speed = 0;
+        for (int p = 0; p < surface.count; ++p) {
+            surface.v(p) = grain.radius * grain.updated->velocity_at_surface(p);
+            surface.speed = std::max(surface.speed, surface.v(p).norm());
         }
-        grain.settle();
-        surface.bound();
+        surface.travel += dt * surface.speed;
+        grain.min_J = 1e300;
+        for (const Mat<Dim>& F : grain.updated->deformation)
+            grain.min_J = std::min(grain.min_J, F.determinant());
+        return complaint;
     }
 
 } // namespace
@@ -282,23 +309,19 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
     for (int g = 0; g < single; ++g) {
         Grain<Dim>& grain = *updated_[g];
         if (before) before(grain);
-        try {
-            correct_updated(grain, dt);
-        } catch (const SimulationError& error) { // must not leave the parallel loop
-            complaint[g] = error.what();
-        }
+        complaint[g] = correct_updated(grain, dt);
         sound[count + g] = is_finite(grain) && !leaps(grain, dt) && complaint[g].empty();
         if (after && sound[count + g]) after(grain);
     }
     report_unsound(sound, dt);
-    for (int g = 0; g < single; ++g)
-        if (!complaint[g].empty()) throw SimulationError(whose(updated_[g]->id) + ": " + complaint[g] + ".");
+    report(complaint);
 }
 
 template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit& after)
 {
-    std::vector<char> sound(batches_.size(), true);
-    const int count = int(batches_.size());
+    const int count = int(batches_.size()), single = int(updated_.size());
+    std::vector<char> sound(count + single, true);
+    std::vector<std::string> complaint(single);
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
@@ -311,7 +334,16 @@ template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit
             least_J_[b] = std::min(least_J_[b], members_[b][lane]->min_J = batch.per_lane[lane]);
         sound[b] = observe(b, dt, after);
     }
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (int g = 0; g < single; ++g) {
+        Grain<Dim>& grain = *updated_[g];
+        complaint[g] = take_updated(grain, dt);
+        least_J_[count + g] = std::min(1.0, grain.min_J);
+        sound[count + g] = is_finite(grain) && complaint[g].empty();
+        if (after && sound[count + g]) after(grain);
+    }
     report_unsound(sound, dt);
+    report(complaint);
 }
 
 /// Surfaces and motions of a batch from its nodes; false when something is wrong with them.
@@ -355,6 +387,12 @@ template <int Dim> void Assembly<Dim>::hand_out(int b, std::vector<double> Surfa
             for (int d = 0; d < Dim; ++d)
                 to[Dim * p + d] = offset[d] + grain.radius * values[(size_t(Dim) * p + d) * lanes + lane];
     }
+}
+
+template <int Dim> void Assembly<Dim>::report(const std::vector<std::string>& complaints) const
+{
+    for (size_t g = 0; g < complaints.size(); ++g)
+        if (!complaints[g].empty()) throw SimulationError(whose(updated_[g]->id) + ": " + complaints[g] + ".");
 }
 
 template <int Dim> void Assembly<Dim>::report_unsound(const std::vector<char>& sound, double dt)

@@ -57,6 +57,8 @@ public:
     int batch_count() const { return int(batches_.size()); }
     Batch<Dim>& batch(int b) { return *batches_[b]; }
     const std::vector<Grain<Dim>*>& members(int b) const { return members_[b]; }
+    /// Updated-Lagrangian ones, which no batch holds.
+    const std::vector<Grain<Dim>*>& updated() const { return updated_; }
 
 private:
     void put_in_batches(std::vector<Grain<Dim>*> group);
@@ -64,13 +66,14 @@ private:
     bool observe(int b, double dt, const Visit& after);
     void hand_out(int b, std::vector<double> Surface<Dim>::*field);
     void report_unsound(const std::vector<char>& sound, double dt);
+    void report(const std::vector<std::string>& complaints) const; ///< of the updated-Lagrangian grains
 
     std::vector<Grain<Dim>*> grains_;
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
-    std::vector<Grain<Dim>*> updated_;              ///< updated-Lagrangian ones, which no batch holds
-    std::vector<double> least_J_;                   ///< of each batch, then of each updated-Lagrangian grain
-    std::vector<char> asleep_;                      ///< of each batch: at rest since it is here
+    std::vector<Grain<Dim>*> updated_;
+    std::vector<double> least_J_; ///< of each batch, then of each updated-Lagrangian grain
+    std::vector<char> asleep_;    ///< of each batch: at rest since it is here
 };
 
 extern template class Assembly<2>;

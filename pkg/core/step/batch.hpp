@@ -68,8 +68,9 @@ template <int Dim> struct LawKernels {
     KernelPair<Dim, double*> internal_force;
     /// Elastic energy per radius^Dim [J/m^Dim] and smallest principal stretch, [lane].
     KernelPair<Dim, double*, double*> energy;
-    /// Stiffness with an inertia per unit of node mass, [lane] [Pa]; see stiffness_kernel.hpp.
-    KernelPair<Dim, const StiffnessPattern<Dim>*, double*, double*> stiffness;
+    /// Stiffness under a displacement of the pattern's rows, with an inertia per unit of node mass, [lane] [Pa]: parameters,
+    /// displacement, inertia, matrix; see stiffness_kernel.hpp.
+    std::array<void (*)(const StiffnessPattern<Dim>*, double*, double*, double*, double*), 2> stiffness;
     /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa].
     Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
     /// The same as in internal_force for the points of one region: first Piola stresses times `scale` in place of their

@@ -2,6 +2,7 @@
 #include "step/implicit_grains.hpp"
 
 #include <cmath>
+#include <map>
 
 namespace softgrain {
 
@@ -12,35 +13,36 @@ ImplicitGrains<Dim>::ImplicitGrains(Assembly<Dim>& assembly)
     , compliance_view_(assembly.grains().size())
     , start_(assembly.grains().size())
     , mark_(assembly.grains().size())
+    , moved_(assembly.grains().size())
 {
     std::map<const Grain<Dim>*, size_t> number;
-    for (const Grain<Dim>* grain : assembly.grains())
+    for (const Grain<Dim>* grain : assembly.grains()) {
+        moved_[number.size()].resize(size_t(Dim) * size_t(grain->surface.count));
         number.emplace(grain, number.size());
-    for (int b = 0; b < assembly.batch_count(); ++b) {
-        Batch<Dim>& batch = assembly.batch(b);
-        auto& pattern = patterns_[batch.mesh.get()];
-        if (!pattern) pattern = std::make_unique<StiffnessPattern<Dim>>(*batch.mesh);
-        if (pattern->most_rows > StiffnessPattern<Dim>::row_limit)
-            throw UserError("soft grain #" + std::to_string(assembly.members(b)[0]->id)
-                            + ": its grid is too coarse for the implicit scheme; give more points.");
+    }
+    for (auto& body : implicit_bodies(assembly)) {
         Part part;
-        part.batch = &batch;
-        part.members = &assembly.members(b);
-        part.pattern = pattern.get();
-        const size_t size = size_t(Dim) * pattern->rows * batch.lanes, points = size_t(batch.mesh->surface_count());
-        for (AlignedVector* field : { &part.displacement, &part.velocity, &part.force, &part.base, &part.step, &part.stage,
-                                      &part.centre, &part.lift, &part.rhs, &part.loads, &part.internal, &part.direction,
-                                      &part.residual, &part.conjugate, &part.product })
-            field->resize(size);
-        for (AlignedVector* field : { &part.inertia, &part.held, &part.factored })
-            field->assign(size_t(batch.lanes), 1);
-        part.energy.resize(size_t(batch.lanes));
-        part.matrix.resize(size_t(pattern->block_count()) * Dim * Dim * batch.lanes);
-        part.compliance.resize(points * points * Dim * Dim * batch.lanes);
-        for (const Grain<Dim>* grain : *part.members)
+        for (const Grain<Dim>* grain : body->members)
             part.index.push_back(number.at(grain));
+        part.body = std::move(body);
         parts_.push_back(std::move(part));
     }
+}
+
+/// Room for the pattern as it is.
+template <int Dim> void ImplicitGrains<Dim>::Part::resize()
+{
+    const size_t size = at(rows(), 0, 0), points = size_t(body->pattern->surface_count());
+    if (displacement.size() == size && matrix.size() == size_t(body->pattern->block_count()) * Dim * Dim * lanes()) return;
+    for (AlignedVector* field : { &displacement, &velocity, &force, &base, &step, &stage, &place, &arrived, &centre, &lift,
+                                  &rhs, &loads, &internal, &direction, &residual, &conjugate, &product })
+        field->resize(size);
+    for (AlignedVector* field : { &inertia, &held, &factored })
+        field->assign(size_t(lanes()), 1);
+    energy.resize(size_t(lanes()));
+    per_lane.resize(2 * size_t(lanes()));
+    matrix.resize(size_t(body->pattern->block_count()) * Dim * Dim * lanes());
+    compliance.resize(points * points * Dim * Dim * lanes());
 }
 
 template <int Dim>
@@ -52,93 +54,86 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
     prediction_ = prediction;
     const double theta = settings.theta;
     each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const int lanes = batch.lanes;
-        std::copy_n(batch.displacement.begin(), part.displacement.size(), part.displacement.begin());
-        std::copy_n(batch.velocity.begin(), part.velocity.size(), part.velocity.begin());
-        motion_kernels<Dim>().extend[batch.wide()](batch.data());
-        KernelData<Dim> data = batch.data();
-        batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
-        std::copy_n(data.force, part.force.size(), part.force.begin());
-        batch.law.energy[batch.wide()](data, part.energy.data(), batch.per_lane.data());
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const Grain<Dim>& grain = *(*part.members)[lane];
+        ImplicitBody<Dim>& body = *part.body;
+        body.begin();
+        part.resize();
+        body.state(part.displacement, part.velocity);
+        body.forces(part.displacement, part.force);
+        body.energy(part.displacement, part.energy.data(), part.per_lane.data());
+        std::vector<Vec<Dim>> loads, centres, ways;
+        for (size_t lane = 0; lane < body.members.size(); ++lane) {
+            const Grain<Dim>& grain = part.grain(lane);
             start_[part.index[lane]] = mark_[part.index[lane]] = grain.surface.position;
-            const double R = grain.radius, mass = grain.density * R * R,
+            const double mass = grain.density * grain.radius * grain.radius,
                          shear = grain.law->shear_modulus(grain.parameters.data());
-            const Vec<Dim> body = (gravity + grain.acceleration) / R, way = prediction(grain.motion.position) / R;
-            const Vec<Dim> centre = (grain.motion.position - grain.origin) / R;
             part.inertia[lane] = settings.quasistatic ? settings.regularisation * shear : mass / (theta * theta * dt * dt);
-            for (int i = 0; i < batch.mesh->master_count; ++i) {
-                const Vec<Dim> x = batch.mesh->node_position[i]
-                    + Vec<Dim>(Eigen::Map<const Vec<Dim>, 0, Eigen::InnerStride<>>(
-                        &part.displacement[size_t(i) * Dim * lanes + lane], Eigen::InnerStride<>(lanes)));
-                const Vec<Dim> load = body + grain.spin_acceleration * (x - centre);
-                for (int d = 0; d < Dim; ++d) {
-                    const size_t k = (size_t(i) * Dim + d) * lanes + lane;
-                    part.lift[k] = mass * load[d] / part.inertia[lane] * (settings.quasistatic ? 1 : 1 / theta);
-                    part.centre[k] = part.displacement[k]
-                        + (settings.quasistatic ? way[d]
-                                                : dt * part.velocity[k]
-                                   + theta * (1 - theta) * dt * dt * part.force[k] * batch.mesh->inverse_mass[i] / mass);
-                }
-            }
+            loads.push_back((gravity + grain.acceleration) / grain.radius);
+            centres.push_back((grain.motion.position - grain.origin) / grain.radius);
+            ways.push_back(prediction(grain.motion.position) / grain.radius);
         }
-        part.base = part.stage = part.displacement;
+        part.each_component([&](size_t lane, int r, int d, size_t k) {
+            const Grain<Dim>& grain = part.grain(lane);
+            const double mass = grain.density * grain.radius * grain.radius;
+            double load = loads[lane][d];
+            for (int e = 0; e < Dim; ++e)
+                load += grain.spin_acceleration(d, e)
+                    * (body.pattern->position[size_t(r)][e] + part.displacement[part.at(r, e, lane)] - centres[lane][e]);
+            part.lift[k] = mass * load / part.inertia[lane] * (settings.quasistatic ? 1 : 1 / theta);
+            part.centre[k] = part.displacement[k]
+                + (settings.quasistatic
+                       ? ways[lane][d]
+                       : dt * part.velocity[k] + theta * (1 - theta) * dt * dt * part.force[k] / (part.mass(r) * mass));
+        });
+        part.base = part.stage = part.place = part.displacement;
     });
 }
 
 template <int Dim> void ImplicitGrains<Dim>::aim(Start start)
 {
     each_part([&](Part& part) {
-        const int lanes = part.batch->lanes;
         part.base = part.displacement;
         std::fill(part.step.begin(), part.step.end(), 0.0);
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const Grain<Dim>& grain = *(*part.members)[lane];
-            const Vec<Dim> way = prediction_(grain.motion.position) / grain.radius;
-            for (int i = 0; i < part.batch->mesh->master_count; ++i)
-                for (int d = 0; d < Dim; ++d) {
-                    const size_t k = (size_t(i) * Dim + d) * lanes + lane;
-                    part.step[k] = start == Start::rest ? 0 : start == Start::velocity ? dt_ * part.velocity[k] : way[d];
-                }
-        }
+        if (start == Start::rest) return;
+        std::vector<Vec<Dim>> ways;
+        for (const Grain<Dim>* grain : part.body->members)
+            ways.push_back(prediction_(grain->motion.position) / grain->radius);
+        part.each_component([&](size_t lane, int, int d, size_t k) {
+            part.step[k] = start == Start::velocity ? dt_ * part.velocity[k] : ways[lane][d];
+        });
     });
 }
 
 template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::evaluate(double share)
 {
     each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const int lanes = batch.lanes;
+        ImplicitBody<Dim>& body = *part.body;
         for (size_t k = 0; k < part.base.size(); ++k)
-            batch.displacement[k] = part.base[k] + share * part.step[k];
-        KernelData<Dim> data = batch.data();
-        motion_kernels<Dim>().observe[batch.wide()](data, batch.sums.data(), batch.extent.data());
-        batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + lanes);
+            part.place[k] = part.base[k] + share * part.step[k];
+        double* smallest = part.per_lane.data() + part.lanes();
+        body.energy(part.place, part.per_lane.data(), smallest);
+        double away[most_lanes] = {};
+        part.each_component([&](size_t lane, int r, int, size_t k) {
+            const double apart = part.place[k] - part.centre[k] - part.lift[k];
+            away[lane] += part.mass(r) * apart * apart;
+        });
+        interpolate(part, part.place, moved_);
         part.potential = 0;
         part.farthest = 0;
         part.sound = true;
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            Grain<Dim>& grain = *(*part.members)[lane];
-            double away = 0;
-            for (int i = 0; i < batch.mesh->master_count; ++i)
-                for (int d = 0; d < Dim; ++d) {
-                    const size_t k = (size_t(i) * Dim + d) * lanes + lane;
-                    const double apart = batch.displacement[k] - part.centre[k] - part.lift[k];
-                    away += batch.mesh->node_mass[i] * apart * apart;
-                }
-            part.potential += std::pow(grain.radius, Dim) * (batch.per_lane[lane] + 0.5 * part.inertia[lane] * away);
-            part.sound &= batch.per_lane[lanes + lane] > 0;
+        for (size_t lane = 0; lane < body.members.size(); ++lane) {
+            Grain<Dim>& grain = *body.members[lane];
+            part.potential += std::pow(grain.radius, Dim) * (part.per_lane[lane] + 0.5 * part.inertia[lane] * away[lane]);
+            part.sound &= smallest[lane] > 0;
             Surface<Dim>& surface = grain.surface;
-            const auto& start = mark_[part.index[lane]];
+            const auto& mark = mark_[part.index[lane]];
             double longest = 0;
             for (int p = 0; p < surface.count; ++p) {
                 double way = 0;
                 for (int d = 0; d < Dim; ++d) {
                     const size_t i = size_t(Dim) * p + d;
-                    surface.position[i] = grain.origin[d] + grain.radius * data.surface[i * lanes + lane];
-                    way += (surface.position[i] - start[i]) * (surface.position[i] - start[i]);
+                    surface.position[i] = grain.origin[d] + grain.radius * body.pattern->surface_position[size_t(p)][d]
+                        + moved_[part.index[lane]][i];
+                    way += (surface.position[i] - mark[i]) * (surface.position[i] - mark[i]);
                 }
                 longest = std::max(longest, way);
             }
@@ -157,34 +152,29 @@ template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::eval
 
 template <int Dim> void ImplicitGrains<Dim>::settle()
 {
-    each_part([&](Part& part) { std::copy_n(part.batch->displacement.begin(), part.base.size(), part.base.begin()); });
+    each_part([&](Part& part) { part.base = part.place; });
 }
 
 template <int Dim> void ImplicitGrains<Dim>::recentre()
 {
-    each_part([&](Part& part) {
-        std::copy_n(part.batch->displacement.begin(), part.stage.size(), part.stage.begin());
-        part.centre = part.stage;
-    });
+    each_part([&](Part& part) { part.stage = part.centre = part.place; });
 }
 
 template <int Dim> void ImplicitGrains<Dim>::back_to_centre()
 {
     each_part([&](Part& part) {
         part.base = part.stage;
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            part.inertia[lane] *= 4;
-            for (size_t k = lane; k < part.lift.size(); k += part.batch->lanes)
-                part.lift[k] /= 4;
-        }
+        part.each_component([&](size_t, int, int, size_t k) { part.lift[k] /= 4; });
+        for (double& inertia : part.inertia)
+            inertia *= 4;
     });
 }
 
 template <int Dim> void ImplicitGrains<Dim>::mark()
 {
     each_part([&](Part& part) {
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            Surface<Dim>& surface = (*part.members)[lane]->surface;
+        for (size_t lane = 0; lane < part.index.size(); ++lane) {
+            Surface<Dim>& surface = part.body->members[lane]->surface;
             surface.travel += part.farthest * surface.size;
             surface.bound();
             mark_[part.index[lane]] = surface.position;
@@ -198,29 +188,23 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
 {
     std::vector<Forces> of_grain(compliance_.size());
     each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const int lanes = batch.lanes;
         std::fill(part.loads.begin(), part.loads.end(), 0.0);
         add_surface_forces(part, contact_forces, 1, part.loads);
-        KernelData<Dim> data = batch.data();
-        batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            Forces& sum = of_grain[part.index[lane]] = { 0, 0, 0, int(part.index[lane]) };
-            for (int r = 0; r < part.pattern->rows; ++r)
-                for (int d = 0; d < Dim; ++d) {
-                    const int i = part.pattern->master[r];
-                    const size_t k = (size_t(i) * Dim + d) * lanes + lane, row = (size_t(r) * Dim + d) * lanes + lane;
-                    const double unit = part.inertia[lane] * batch.mesh->node_mass[i];
-                    const double inertia = unit * (part.centre[k] - batch.displacement[k]);
-                    part.internal[row] = data.force[k];
-                    part.rhs[row] = data.force[k] + inertia + unit * part.lift[k] + part.loads[row];
-                    sum.unbalanced += part.rhs[row] * part.rhs[row];
-                    sum.contact += part.loads[row] * part.loads[row];
-                    sum.inertia += inertia * inertia;
-                }
-            const double unit = std::pow((*part.members)[lane]->radius, 2 * (Dim - 1));
+        part.body->forces(part.place, part.internal);
+        for (size_t index : part.index)
+            of_grain[index] = { 0, 0, 0, int(index) };
+        part.each_component([&](size_t lane, int r, int, size_t k) {
+            Forces& sum = of_grain[part.index[lane]];
+            const double unit = part.inertia[lane] * part.mass(r), inertia = unit * (part.centre[k] - part.place[k]);
+            part.rhs[k] = part.internal[k] + inertia + unit * part.lift[k] + part.loads[k];
+            sum.unbalanced += part.rhs[k] * part.rhs[k];
+            sum.contact += part.loads[k] * part.loads[k];
+            sum.inertia += inertia * inertia;
+        });
+        for (size_t lane = 0; lane < part.index.size(); ++lane) {
+            Forces& sum = of_grain[part.index[lane]];
             for (double* value : { &sum.unbalanced, &sum.contact, &sum.inertia })
-                *value *= unit;
+                *value *= std::pow(part.grain(lane).radius, 2 * (Dim - 1));
         }
     });
     Forces total { 0, 0, 0, 0 };
@@ -236,8 +220,8 @@ template <int Dim> typename ImplicitGrains<Dim>::Forces ImplicitGrains<Dim>::loa
 template <int Dim> void ImplicitGrains<Dim>::slide(SurfaceField& way) const
 {
     for (const Part& part : parts_)
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const auto& now = (*part.members)[lane]->surface.position;
+        for (size_t lane = 0; lane < part.index.size(); ++lane) {
+            const auto& now = part.grain(lane).surface.position;
             const auto& start = start_[part.index[lane]];
             auto& field = way[part.index[lane]];
             for (size_t i = 0; i < now.size(); ++i)
@@ -249,21 +233,15 @@ template <int Dim> void ImplicitGrains<Dim>::accept()
 {
     const double theta = settings_.quasistatic ? 1 : settings_.theta;
     each_part([&](Part& part) {
-        for (size_t k = 0; k < part.displacement.size(); ++k)
-            part.batch->velocity[k]
-                = ((part.batch->displacement[k] - part.displacement[k]) / dt_ - (1 - theta) * part.velocity[k]) / theta;
+        for (size_t k = 0; k < part.place.size(); ++k)
+            part.arrived[k] = ((part.place[k] - part.displacement[k]) / dt_ - (1 - theta) * part.velocity[k]) / theta;
+        part.body->leave(part.place, part.arrived);
     });
 }
 
 template <int Dim> void ImplicitGrains<Dim>::velocities(SurfaceField& velocity)
 {
-    each_part([&](Part& part) {
-        const size_t width = size_t(Dim) * part.batch->lanes;
-        for (int r = 0; r < part.pattern->rows; ++r)
-            std::copy_n(&part.batch->velocity[size_t(part.pattern->master[r]) * width], width,
-                        &part.direction[size_t(r) * width]);
-        interpolate(part, part.direction, velocity);
-    });
+    each_part([&](Part& part) { interpolate(part, part.arrived, velocity); });
 }
 
 template <int Dim> void ImplicitGrains<Dim>::exchange_places()
@@ -275,17 +253,13 @@ template <int Dim> void ImplicitGrains<Dim>::exchange_places()
 template <int Dim> void ImplicitGrains<Dim>::strike(const SurfaceField& impulses, double share)
 {
     each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const size_t lanes = size_t(batch.lanes);
         std::fill(part.loads.begin(), part.loads.end(), 0.0);
         add_surface_forces(part, impulses, share, part.loads);
-        for (int r = 0; r < part.pattern->rows; ++r) {
-            const int i = part.pattern->master[r];
-            for (size_t d = 0; d < Dim; ++d)
-                for (size_t lane = 0; lane < lanes; ++lane)
-                    batch.velocity[(size_t(i) * Dim + d) * lanes + lane] += part.loads[(size_t(r) * Dim + d) * lanes + lane]
-                        * batch.mesh->inverse_mass[i] * batch.inverse_inertia[lane];
-        }
+        part.each_component([&](size_t lane, int r, int, size_t k) {
+            const Grain<Dim>& grain = part.grain(lane);
+            part.arrived[k] += part.loads[k] / (part.mass(r) * grain.density * grain.radius * grain.radius);
+        });
+        part.body->leave(part.place, part.arrived);
     });
 }
 
@@ -296,33 +270,30 @@ template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::ene
     const bool rest = settings_.quasistatic;
     std::vector<Energy> of_part(parts_.size(), Energy {});
     each_part([&](Part& part) {
-        Batch<Dim>& batch = *part.batch;
-        const int lanes = batch.lanes;
-        KernelData<Dim> data = batch.data();
-        batch.law.internal_force[batch.wide()](data, batch.per_lane.data());
-        batch.law.energy[batch.wide()](data, batch.per_lane.data(), batch.per_lane.data() + lanes);
-        Energy& sum = of_part[size_t(&part - parts_.data())];
-        for (size_t lane = 0; lane < part.members->size(); ++lane) {
-            const Grain<Dim>& grain = *(*part.members)[lane];
-            const double mass = grain.density * grain.radius * grain.radius, unit = std::pow(grain.radius, Dim);
-            const double elastic = batch.per_lane[lane] - part.energy[lane];
+        struct Sums {
             double kinetic = 0, by_contacts = 0, by_loads = 0, lost = 0;
-            for (int i = 0; i < batch.mesh->master_count; ++i)
-                for (int d = 0; d < Dim; ++d) {
-                    const size_t k = (size_t(i) * Dim + d) * lanes + lane;
-                    const double way = batch.displacement[k] - part.displacement[k], m = mass * batch.mesh->node_mass[i],
-                                 v = batch.velocity[k], before = part.velocity[k];
-                    by_contacts += way * part.loads[(size_t(part.pattern->row_of[i]) * Dim + d) * lanes + lane];
-                    by_loads
-                        += way * part.inertia[lane] * batch.mesh->node_mass[i] * part.lift[k] * (rest ? 1 : settings_.theta);
-                    if (rest) continue;
-                    kinetic += m * (v * v - before * before) / 2;
-                    lost += m * (v - before) * (way / dt_ - (v + before) / 2)
-                        - (settings_.theta - 0.5) * (data.force[k] - part.force[k]) * way;
-                }
-            sum.gained += unit * (kinetic + elastic - by_loads);
-            sum.exchanged += unit * (std::abs(kinetic) + std::abs(elastic));
-            sum.dissipated += unit * (rest ? by_contacts + by_loads - elastic : lost);
+        } of_lane[most_lanes];
+        part.body->forces(part.place, part.internal);
+        part.body->energy(part.place, part.per_lane.data(), part.per_lane.data() + part.lanes());
+        part.each_component([&](size_t lane, int r, int, size_t k) {
+            const Grain<Dim>& grain = part.grain(lane);
+            Sums& sum = of_lane[lane];
+            const double way = part.place[k] - part.displacement[k], v = part.arrived[k], before = part.velocity[k],
+                         m = grain.density * grain.radius * grain.radius * part.mass(r);
+            sum.by_contacts += way * part.loads[k];
+            sum.by_loads += way * part.inertia[lane] * part.mass(r) * part.lift[k] * (rest ? 1 : settings_.theta);
+            if (rest) return;
+            sum.kinetic += m * (v * v - before * before) / 2;
+            sum.lost += m * (v - before) * (way / dt_ - (v + before) / 2)
+                - (settings_.theta - 0.5) * (part.internal[k] - part.force[k]) * way;
+        });
+        Energy& energy = of_part[size_t(&part - parts_.data())];
+        for (size_t lane = 0; lane < part.index.size(); ++lane) {
+            const Sums& sum = of_lane[lane];
+            const double unit = std::pow(part.grain(lane).radius, Dim), elastic = part.per_lane[lane] - part.energy[lane];
+            energy.gained += unit * (sum.kinetic + elastic - sum.by_loads);
+            energy.exchanged += unit * (std::abs(sum.kinetic) + std::abs(elastic));
+            energy.dissipated += unit * (rest ? sum.by_contacts + sum.by_loads - elastic : sum.lost);
         }
     });
     Energy total {};
@@ -334,11 +305,9 @@ template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::ene
 template <int Dim> void ImplicitGrains<Dim>::restore()
 {
     each_part([&](Part& part) {
-        std::copy(part.displacement.begin(), part.displacement.end(), part.batch->displacement.begin());
-        std::copy(part.velocity.begin(), part.velocity.end(), part.batch->velocity.begin());
-        motion_kernels<Dim>().extend[part.batch->wide()](part.batch->data());
-        for (size_t lane = 0; lane < part.members->size(); ++lane)
-            (*part.members)[lane]->surface.position = start_[part.index[lane]];
+        part.body->leave(part.displacement, part.velocity);
+        for (size_t lane = 0; lane < part.index.size(); ++lane)
+            part.body->members[lane]->surface.position = start_[part.index[lane]];
     });
 }
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "solver/barrier_contact.hpp"
-#include "step/assembly.hpp"
+#include "step/implicit_body.hpp"
 #include "step/stiffness.hpp"
 
-#include <map>
 #include <numeric>
 
 namespace softgrain {
@@ -108,22 +107,39 @@ public:
     void restore();
 
 private:
+    static constexpr int most_lanes = 8;
+
+    /// Vectors are [row][Dim][lane] in radii.
     struct Part {
-        Batch<Dim>* batch;
-        const std::vector<Grain<Dim>*>* members;
-        std::vector<size_t> index; ///< of the members among all grains
-        const StiffnessPattern<Dim>* pattern;
+        std::unique_ptr<ImplicitBody<Dim>> body;
+        std::vector<size_t> index;                   ///< of the members among all grains
         AlignedVector displacement, velocity, force; ///< at the start of the step
-        AlignedVector base, step, stage;             ///< [master][Dim][lane]
-        AlignedVector centre, lift;                  ///< the target without body forces, and what they add to it
-        AlignedVector inertia;                       ///< [lane], 1 / (theta h)^2 in units of the stiffness [Pa]
-        AlignedVector held, factored;                ///< inertia and damping, [lane] [Pa]; those of the factor
-        AlignedVector rhs, loads, internal;          ///< [row][Dim][lane]; loads: contact forces, or K^-1 of something
-        AlignedVector direction, residual, conjugate, product; ///< [row][Dim][lane]
-        AlignedVector energy;                                  ///< elastic, at the start of the step, [lane] [J/m^Dim]
-        AlignedVector matrix, compliance;
+        AlignedVector base, step, stage;
+        AlignedVector place, arrived;       ///< displacement evaluated last; velocity at the end of the step
+        AlignedVector centre, lift;         ///< the target without body forces, and what they add to it
+        AlignedVector inertia;              ///< [lane], 1 / (theta h)^2 in units of the stiffness [Pa]
+        AlignedVector held, factored;       ///< inertia and damping, [lane] [Pa]; those of the factor
+        AlignedVector rhs, loads, internal; ///< loads: contact forces, or K^-1 of something
+        AlignedVector direction, residual, conjugate, product;
+        AlignedVector energy; ///< elastic, at the start of the step, [lane] [J/m^Dim]
+        AlignedVector per_lane, matrix, compliance;
         double potential = 0, farthest = 0;
         bool sound = true;
+
+        int lanes() const { return body->lanes; }
+        int rows() const { return body->pattern->rows; }
+        double mass(int row) const { return body->pattern->mass[size_t(row)]; }
+        const Grain<Dim>& grain(size_t lane) const { return *body->members[lane]; }
+        size_t at(int row, int d, size_t lane) const { return (size_t(row) * Dim + size_t(d)) * size_t(body->lanes) + lane; }
+        /// Calls visit(lane, row, d, index into a vector) for every component of the grains that are there.
+        template <class Visit> void each_component(const Visit& visit) const
+        {
+            for (int r = 0; r < rows(); ++r)
+                for (int d = 0; d < Dim; ++d)
+                    for (size_t lane = 0; lane < body->members.size(); ++lane)
+                        visit(lane, r, d, at(r, d, lane));
+        }
+        void resize();
     };
     template <class Work> void each_part(const Work& work)
     {
@@ -140,15 +156,15 @@ private:
     }
     static double dot(const Part& part, const AlignedVector& a, const AlignedVector& b);
     void add_surface_forces(const Part& part, const SurfaceField& forces, double share, AlignedVector& rows) const;
-    void interpolate(Part& part, const AlignedVector& rows, SurfaceField& way) const;
+    double interpolate(const Part& part, const AlignedVector& rows, SurfaceField& way) const;
     void multiply(Part& part, const AlignedVector& x);
 
     Assembly<Dim>& assembly_;
     std::vector<Part> parts_;
-    std::map<const Discretisation<Dim>*, std::unique_ptr<StiffnessPattern<Dim>>> patterns_;
     std::vector<std::vector<double>> compliance_; ///< [grain]
     std::vector<const double*> compliance_view_;
     SurfaceField start_, mark_; ///< positions at the start of the step and at the last mark [m]
+    SurfaceField moved_;        ///< displacement of the surfaces at the last place evaluated [m]
     ImplicitSettings settings_;
     Prediction prediction_;
     double dt_ = 0, farthest_ = 0, reach_ = 0;

@@ -49,9 +49,10 @@ namespace {
                  &Law::wave_modulus,
                  &Law::template shear_modulus<double>,
                  &Law::complaint,
-                 Versions<kernels::InternalForce<Dim, Law>, Dim, double*>::table(),
-                 Versions<kernels::Energy<Dim, Law>, Dim, double*, double*>::table(),
-                 Versions<kernels::Stiffness<Dim, Law>, Dim, const StiffnessPattern<Dim>*, double*, double*>::table(),
+                 Versions<kernels::InternalForce<Dim, Law>, const KernelData<Dim>&, double*>::table(),
+                 Versions<kernels::Energy<Dim, Law>, const KernelData<Dim>&, double*, double*>::table(),
+                 Versions<kernels::Stiffness<Dim, Law>, const StiffnessPattern<Dim>*, double*, double*, double*,
+                          double*>::table(),
                  &cauchy_stress<Law>,
                  &region_stress<Dim, Law>,
                  &region_energy<Dim, Law> };
@@ -78,12 +79,14 @@ template <int Dim> const LawKernels<Dim>& law_kernels(const std::string& name)
 
 template <int Dim> const MotionKernels<Dim>& motion_kernels()
 {
-    static const MotionKernels<Dim> all { Versions<kernels::Velocities<Dim>, Dim, double*>::table(),
-                                          Versions<kernels::Kick<Dim>, Dim, double, double*, double*>::table(),
-                                          Versions<kernels::Push<Dim>, Dim, double*>::table(),
-                                          Versions<kernels::Drift<Dim>, Dim, double>::table(),
-                                          Versions<kernels::Extend<Dim>, Dim>::table(),
-                                          Versions<kernels::Observe<Dim>, Dim, double*, double*>::table() };
+    static const MotionKernels<Dim> all {
+        Versions<kernels::Velocities<Dim>, const KernelData<Dim>&, double*>::table(),
+        Versions<kernels::Kick<Dim>, const KernelData<Dim>&, double, double*, double*>::table(),
+        Versions<kernels::Push<Dim>, const KernelData<Dim>&, double*>::table(),
+        Versions<kernels::Drift<Dim>, const KernelData<Dim>&, double>::table(),
+        Versions<kernels::Extend<Dim>, const KernelData<Dim>&>::table(),
+        Versions<kernels::Observe<Dim>, const KernelData<Dim>&, double*, double*>::table()
+    };
     return all;
 }
 

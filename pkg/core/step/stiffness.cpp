@@ -9,9 +9,9 @@ namespace softgrain {
 const StiffnessKernels& stiffness_kernels()
 {
     using Pattern = StiffnessKernels::Pattern;
-    static const StiffnessKernels all { Versions<kernels::Factorise, 2, Pattern, double*>::table(),
-                                        Versions<kernels::Solve, 2, Pattern, double*, double*>::table(),
-                                        Versions<kernels::Compliance, 2, Pattern, double*, double*, double*>::table() };
+    static const StiffnessKernels all { Versions<kernels::Factorise, Pattern, double*>::table(),
+                                        Versions<kernels::Solve, Pattern, double*, double*>::table(),
+                                        Versions<kernels::Compliance, Pattern, double*, double*, double*>::table() };
     return all;
 }
 

@@ -6,13 +6,13 @@
 
 namespace softgrain {
 
-/// Kernels with the stiffness of a batch; see stiffness_kernel.hpp.
+/// Kernels with the stiffness of grains that share a pattern, for one lane and for eight; see stiffness_kernel.hpp.
 struct StiffnessKernels {
     using Pattern = const StiffnessPattern<2>*;
-    KernelPair<2, Pattern, double*> factorise;      ///< in place
-    KernelPair<2, Pattern, double*, double*> solve; ///< with the factor: a vector, in place
-    KernelPair<2, Pattern, double*, double*, double*>
-        compliance; ///< with the factor: room, then the compliance of the surface
+    template <class... Arguments> using Pair = std::array<void (*)(Pattern, Arguments...), 2>;
+    Pair<double*> factorise;                    ///< in place
+    Pair<double*, double*> solve;               ///< with the factor: a vector, in place
+    Pair<double*, double*, double*> compliance; ///< with the factor: room, then the compliance of the surface
 };
 
 const StiffnessKernels& stiffness_kernels();

@@ -17,23 +17,21 @@ namespace softgrain::kernels {
 template <int Dim, class Law> struct Stiffness {
     static_assert(Dim == 2, "the spectrum of d2J/dF2 is that of the plane");
     template <class T, int L>
-    static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, const StiffnessPattern<Dim>* pattern, double* inertia,
-                                     double* matrix)
+    static SOFTGRAIN_INLINE void run(const StiffnessPattern<Dim>* pattern, double* parameters, double* displacement,
+                                     double* inertia, double* matrix)
     {
         constexpr int points = power(2, Dim);
         constexpr int most = StiffnessPattern<Dim>::row_limit;
         T p[Law::parameters.size()];
         for (size_t k = 0; k < Law::parameters.size(); ++k)
-            p[k] = item<T, L>(data.parameters, k);
+            p[k] = item<T, L>(parameters, k);
         const auto K = field<T, L>(matrix);
         for (long i = 0; i < long(pattern->start[pattern->rows]) * Dim * Dim; ++i)
             K[i] = T {};
-        for (int r = 0; r < data.region_count; ++r) {
-            const auto& region = data.regions[r];
-            const auto& share = pattern->regions[r];
-            const int* row = &pattern->region_row[share.row];
+        for (const auto& region : pattern->regions) {
+            const int* row = &pattern->region_row[region.row];
             Tensor<Dim, T> F[points];
-            deform<Dim, L>(data, region, F);
+            pattern->deform(region, field<T, L>(displacement), F);
             T J[points + 1], inverse_J[points + 1], sum {};
             for (int q = 0; q < points; ++q)
                 sum += J[q] = determinant(F[q]);
@@ -44,7 +42,7 @@ template <int Dim, class Law> struct Stiffness {
             const T stiff = stabilisation<Law>(region.pointwise, p);
             const double volume = region.volume / points;
             T even[points], odd[points], outer[points], h[points][most][Dim], mean[most][Dim];
-            for (int a = 0; a < share.rows; ++a)
+            for (int a = 0; a < region.rows; ++a)
                 mean[a][0] = mean[a][1] = T {};
             for (int q = 0; q < points; ++q) {
                 const PlaneTangent<T> tangent = Law::plane_tangent(p, J[q], inverse_J[q]);
@@ -54,16 +52,16 @@ template <int Dim, class Law> struct Stiffness {
                 odd[q] = 0.5 * volume * (plus - minus);
                 outer[q] = volume * (tangent.cofactor + stiff);
                 const Tensor<Dim, T> cof = cofactor(F[q]);
-                const double* gradient = &pattern->region_gradient[share.gradient + size_t(q) * share.rows * Dim];
-                for (int a = 0; a < share.rows; ++a)
+                const double* gradient = &pattern->region_gradient[region.gradient + size_t(q) * region.rows * Dim];
+                for (int a = 0; a < region.rows; ++a)
                     for (int i = 0; i < Dim; ++i) {
                         h[q][a][i] = cof.at[i][0] * gradient[2 * a] + cof.at[i][1] * gradient[2 * a + 1];
                         mean[a][i] += (1.0 / points) * h[q][a][i];
                     }
             }
             const T common = region.volume * (curvature - stiff);
-            const double* gradient = &pattern->region_gradient[share.gradient];
-            for (int a = 0; a < share.rows; ++a) {
+            const double* gradient = &pattern->region_gradient[region.gradient];
+            for (int a = 0; a < region.rows; ++a) {
                 T weighted[points + 1][Dim];
                 for (int i = 0; i < Dim; ++i) {
                     for (int q = 0; q < points; ++q)
@@ -78,8 +76,8 @@ template <int Dim, class Law> struct Stiffness {
                             entry[i][j] = weighted[points][i] * mean[b][j];
 #pragma GCC unroll 4
                     for (int q = 0; q < points; ++q) {
-                        const double *ga = gradient + (q * share.rows + a) * Dim,
-                                     *gb = gradient + (q * share.rows + b) * Dim;
+                        const double *ga = gradient + (q * region.rows + a) * Dim,
+                                     *gb = gradient + (q * region.rows + b) * Dim;
                         same += even[q] * (ga[0] * gb[0] + ga[1] * gb[1]);
                         cross += odd[q] * (ga[0] * gb[1] - ga[1] * gb[0]);
                         for (int i = 0; i < Dim; ++i)
@@ -97,7 +95,7 @@ template <int Dim, class Law> struct Stiffness {
         const T per_mass = item<T, L>(inertia, 0);
         for (int r = 0; r < pattern->rows; ++r)
             for (int d = 0; d < Dim; ++d)
-                K[long(pattern->block(r, r)) * Dim * Dim + d * (Dim + 1)] += data.node_mass[pattern->master[r]] * per_mass;
+                K[long(pattern->block(r, r)) * Dim * Dim + d * (Dim + 1)] += pattern->mass[r] * per_mass;
     }
 };
 
@@ -114,8 +112,7 @@ template <class T, class Field> SOFTGRAIN_INLINE void subtract_product(T* A, con
 
 /// K = L L^T in place (George and Liu 1981, envelope method). Of a diagonal block (a 0; b c) stand 1/a, b and 1/c.
 struct Factorise {
-    template <class T, int L>
-    static SOFTGRAIN_INLINE void run(const KernelData<2>&, const StiffnessPattern<2>* pattern, double* matrix)
+    template <class T, int L> static SOFTGRAIN_INLINE void run(const StiffnessPattern<2>* pattern, double* matrix)
     {
         const auto K = field<T, L>(matrix);
         for (int r = 0; r < pattern->rows; ++r) {
@@ -146,8 +143,7 @@ struct Factorise {
 /// x <- K^-1 x.
 struct Solve {
     template <class T, int L>
-    static SOFTGRAIN_INLINE void run(const KernelData<2>&, const StiffnessPattern<2>* pattern, double* matrix,
-                                     double* vector)
+    static SOFTGRAIN_INLINE void run(const StiffnessPattern<2>* pattern, double* matrix, double* vector)
     {
         const auto K = field<T, L>(matrix), x = field<T, L>(vector);
         for (int r = 0; r < pattern->rows; ++r) {
@@ -178,11 +174,10 @@ struct Solve {
 /// [point][row][Dim][Dim][lane].
 struct Compliance {
     template <class T, int L>
-    static SOFTGRAIN_INLINE void run(const KernelData<2>& data, const StiffnessPattern<2>* pattern, double* matrix,
-                                     double* room, double* compliance)
+    static SOFTGRAIN_INLINE void run(const StiffnessPattern<2>* pattern, double* matrix, double* room, double* compliance)
     {
         const auto K = field<T, L>(matrix), X = field<T, L>(room), C = field<T, L>(compliance);
-        const int n = pattern->rows, points = data.surface_count;
+        const int n = pattern->rows, points = pattern->surface_count();
         for (int p = 0; p < points; ++p) {
             const long at = 4L * n * p;
             const auto* share = &pattern->surface[pattern->surface_start[p]];

@@ -37,6 +37,7 @@ template <int Dim> void UpdatedBody<Dim>::settle(const Discretisation<Dim>& mesh
 {
     grid_.lay(position, mesh.point_volume, surface, mesh.node_position[0], mesh.cell_width, mesh.node_threshold);
     grid_.project(mesh.point_volume, velocity, node_velocity_);
+    node_way_.assign(size_t(grid_.node_count()), Vec<Dim>::Zero());
     rate_.resize(position.size(), Mat<Dim>::Zero());
     if (spin)
         restore_spin();
@@ -116,22 +117,42 @@ template <int Dim> void UpdatedBody<Dim>::push(int surface_point, const Vec<Dim>
 
 template <int Dim> bool UpdatedBody<Dim>::drift(double dt)
 {
-    for (const Vec<Dim>& v : node_velocity_)
-        if (!v.allFinite()) return false;
+    for (int i = 0; i < grid_.node_count(); ++i)
+        node_way_[i] = dt * node_velocity_[i];
+    return arrive(dt);
+}
+
+template <int Dim> void UpdatedBody<Dim>::leave(int node, const Vec<Dim>& way, const Vec<Dim>& velocity)
+{
+    node_way_[node] = way;
+    node_velocity_[node] = velocity;
+}
+
+template <int Dim> bool UpdatedBody<Dim>::arrive(double dt)
+{
+    for (const auto* field : { &node_way_, &node_velocity_ })
+        for (const Vec<Dim>& value : *field)
+            if (!value.allFinite()) return false;
+    for (int i = 0; i < grid_.node_count(); ++i)
+        grid_.node_position[i] += node_way_[i];
     spin = spin_of_nodes();
     for (size_t p = 0; p < position.size(); ++p) {
+        Vec<Dim> way = Vec<Dim>::Zero();
+        Mat<Dim> gradient = Mat<Dim>::Zero();
         velocity[p].setZero();
-        rate_[p].setZero();
         for (int k = grid_.point_row[p]; k < grid_.point_row[p + 1]; ++k) {
             const auto& entry = grid_.entry[k];
+            way += entry.weight * node_way_[entry.node];
             velocity[p] += entry.weight * node_velocity_[entry.node];
-            rate_[p] += node_velocity_[entry.node] * entry.gradient.transpose();
+            gradient += node_way_[entry.node] * entry.gradient.transpose();
         }
-        position[p] += dt * velocity[p];
-        deformation[p] += dt * rate_[p] * deformation[p].eval();
+        position[p] += way;
+        rate_[p] = gradient / dt;
+        deformation[p] += gradient * deformation[p].eval();
     }
     for (size_t s = 0; s < surface.size(); ++s)
-        surface[s] += dt * velocity_at_surface(int(s));
+        for (const auto& [node, weight] : grid_.surface_row[s])
+            surface[s] += weight * node_way_[node];
     return true;
 }
 

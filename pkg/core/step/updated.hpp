@@ -30,6 +30,9 @@ public:
     void push(int surface_point, const Vec<Dim>& impulse);
     /// Points and surface move with the nodes; deformations follow. False, and nothing is done, when a value is not finite.
     bool drift(double dt);
+    /// The same by ways and velocities that another scheme found, node by node, and took this time for.
+    void leave(int node, const Vec<Dim>& way, const Vec<Dim>& velocity);
+    bool arrive(double dt);
     /// Adds a velocity that is linear in space to points and nodes: at the centre, and its gradient.
     void add_velocity(const Vec<Dim>& centre, const Vec<Dim>& of_centre, const Mat<Dim>& gradient);
 
@@ -40,6 +43,8 @@ public:
     double elastic_energy(const Discretisation<Dim>& mesh, const LawKernels<Dim>& law, const double* parameters, double dt,
                           double back, double& min_stretch) const;
     const SurfaceOperator<Dim>& response() const { return grid_.response; }
+    const PointGrid<Dim>& grid() const { return grid_; }
+    const std::vector<Vec<Dim>>& node_velocity() const { return node_velocity_; }
 
     /// What is carried from step to step, one number after the other.
     std::vector<double> packed() const;
@@ -51,7 +56,7 @@ private:
     void restore_spin();
 
     PointGrid<Dim> grid_;
-    std::vector<Vec<Dim>> node_velocity_, force_;
+    std::vector<Vec<Dim>> node_velocity_, node_way_, force_;
     std::vector<Mat<Dim>> rate_; ///< velocity gradients at the points in the last step
 };
 

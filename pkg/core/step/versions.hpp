@@ -31,31 +31,28 @@ template <int Dim> KernelData<Dim> from_lane(KernelData<Dim> data, int lane)
 }
 
 /// One kernel for one lane and for eight, in all its versions.
-template <class Kernel, int Dim, class... Arguments> struct Versions {
-    using Function = void (*)(const KernelData<Dim>&, Arguments...);
+template <class Kernel, class... Arguments> struct Versions {
+    using Function = void (*)(Arguments...);
 
-    __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(const KernelData<Dim>& data, Arguments... arguments)
+    __attribute__((target("arch=x86-64-v4"))) static void eight_avx512(Arguments... arguments)
     {
-        Kernel::template run<Lanes<8>::Value, 8>(data, arguments...);
+        Kernel::template run<Lanes<8>::Value, 8>(arguments...);
     }
-    __attribute__((target("arch=x86-64-v3"))) static void eight_avx2(const KernelData<Dim>& data, Arguments... arguments)
+    __attribute__((target("arch=x86-64-v3"))) static void eight_avx2(Arguments... arguments)
     {
         for (int lane = 0; lane < 8; lane += 4)
-            Kernel::template run<Lanes<4>::Value, 8>(from_lane(data, lane), from_lane(arguments, lane)...);
+            Kernel::template run<Lanes<4>::Value, 8>(from_lane(arguments, lane)...);
     }
-    static void eight_plain(const KernelData<Dim>& data, Arguments... arguments)
+    static void eight_plain(Arguments... arguments)
     {
         for (int lane = 0; lane < 8; lane += 2)
-            Kernel::template run<Lanes<2>::Value, 8>(from_lane(data, lane), from_lane(arguments, lane)...);
+            Kernel::template run<Lanes<2>::Value, 8>(from_lane(arguments, lane)...);
     }
-    __attribute__((target("arch=x86-64-v3"))) static void one_avx2(const KernelData<Dim>& data, Arguments... arguments)
+    __attribute__((target("arch=x86-64-v3"))) static void one_avx2(Arguments... arguments)
     {
-        Kernel::template run<double, 1>(data, arguments...);
+        Kernel::template run<double, 1>(arguments...);
     }
-    static void one_plain(const KernelData<Dim>& data, Arguments... arguments)
-    {
-        Kernel::template run<double, 1>(data, arguments...);
-    }
+    static void one_plain(Arguments... arguments) { Kernel::template run<double, 1>(arguments...); }
     static std::array<Function, 2> table()
     {
         switch (instruction_set()) {

@@ -22,14 +22,13 @@ struct Condensed {
     {
         const auto& mesh = *grain.mesh;
         const StiffnessPattern<2> pattern(mesh);
-        Batch<2> batch(grain.mesh, *grain.law, 1);
-        std::copy(grain.parameters.begin(), grain.parameters.end(), batch.parameters.begin());
-        std::copy(grain.displacement.begin(), grain.displacement.end(), batch.displacement.begin());
-        motion_kernels<2>().extend[0](batch.data());
+        AlignedVector displacement(2 * size_t(pattern.rows));
+        for (size_t i = 0; i < displacement.size(); ++i)
+            displacement[i] = grain.displacement[2 * size_t(pattern.master[i / 2]) + i % 2];
         const int points = mesh.surface_count();
         AlignedVector matrix(4 * size_t(pattern.block_count())), room(4 * size_t(points) * pattern.rows),
             compliance(4 * size_t(points) * points), x(2 * size_t(pattern.rows));
-        grain.law->stiffness[0](batch.data(), &pattern, &inertia, matrix.data());
+        grain.law->stiffness[0](&pattern, grain.parameters.data(), displacement.data(), &inertia, matrix.data());
         K = Eigen::MatrixXd::Zero(2 * pattern.rows, 2 * pattern.rows);
         for (int r = 0; r < pattern.rows; ++r)
             for (int c = pattern.first[size_t(r)]; c <= r; ++c)
@@ -40,8 +39,8 @@ struct Condensed {
                         K(row, column) = K(column, row) = value;
                     }
         const auto& kernels = stiffness_kernels();
-        kernels.factorise[0](batch.data(), &pattern, matrix.data());
-        kernels.compliance[0](batch.data(), &pattern, matrix.data(), room.data(), compliance.data());
+        kernels.factorise[0](&pattern, matrix.data());
+        kernels.compliance[0](&pattern, matrix.data(), room.data(), compliance.data());
         C.resize(2 * points, 2 * points);
         for (int p = 0; p < points; ++p)
             for (int q = 0; q < points; ++q)
@@ -49,7 +48,7 @@ struct Condensed {
                     C(2 * p + k / 2, 2 * q + k % 2) = compliance[4 * (size_t(points) * p + q) + k];
         for (int r = 0; r < 2 * pattern.rows; ++r)
             x[size_t(r)] = load[2 * pattern.master[size_t(r / 2)] + r % 2];
-        kernels.solve[0](batch.data(), &pattern, matrix.data(), x.data());
+        kernels.solve[0](&pattern, matrix.data(), x.data());
         solution.resize(2 * pattern.rows);
         for (int r = 0; r < 2 * pattern.rows; ++r)
             solution[2 * pattern.master[size_t(r / 2)] + r % 2] = x[size_t(r)];
