@@ -39,7 +39,7 @@ def read_options():
     options = parser.read()
     options.set_quick(QUICK)
     opt.choose_by_accuracy(options)
-    opt.refuse_what_is_not_there(options)
+    opt.make_quasistatic_implicit(options)
     opt.refuse_nothing_to_press(options)
     return options
 

@@ -57,7 +57,7 @@ def read_options():
     opt.choose_by_accuracy(options)
     if options.walls == 4 and "squeeze" not in options.given:
         options.squeeze = 0.1
-    opt.refuse_what_is_not_there(options)
+    opt.make_quasistatic_implicit(options)
     if options.squeeze >= 0.9:
         raise InputError(f"--squeeze {options.squeeze:g} leaves no room for the disc: give less than 0.9.")
     return options

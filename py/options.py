@@ -194,22 +194,17 @@ def engine_settings(options):
     return {"dt": options.dt, "safety": options.safety, "tolerance": options.tolerance}
 
 
-def refuse_what_is_not_there(options):
-    """InputError for options that are announced but not there yet, or have no meaning together."""
+def make_quasistatic_implicit(options):
+    """--quasistatic takes implicit steps; InputError when explicit ones were asked for."""
     if options.quasistatic and options.integrator == "explicit":
         if "integrator" in options.given:
             raise InputError("--quasistatic goes without inertia, which --integrator explicit cannot: use implicit.")
         options.integrator = "implicit"
-    if options.formulation == "updated" and options.integrator == "implicit":
-        raise InputError("--formulation updated with --integrator implicit is not there yet: use total.")
 
 
 def choose_method(options, step):
     """The arguments of softEngines for the time integration. `step`: length of an implicit step that follows the loading
     well [s]. Resolves --integrator auto: prints what it picked and why."""
-    if options.integrator == "auto" and options.formulation == "updated":
-        options.integrator = "explicit"
-        print("--integrator auto: explicit, since --formulation updated is not there for implicit steps")
     if options.integrator == "auto":
         ratio = step / _explicit_step()
         options.integrator = "implicit" if options.quasistatic or ratio > STEPS_OF_AN_IMPLICIT_ONE else "explicit"

@@ -13,11 +13,6 @@ YADE_PLUGIN((SoftImplicitIntegrator));
 
 void SoftImplicitIntegrator::assembled()
 {
-    for (const SoftState* state : soft_.states)
-        if (state->grain.updated)
-            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id)
-                                     + ": SoftImplicitIntegrator knows the total-Lagrangian form alone; give it "
-                                       "formulation='total', or take SoftIntegrator.");
     run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_);
 }
 
