@@ -11,10 +11,7 @@ namespace yade {
 
 YADE_PLUGIN((SoftImplicitIntegrator));
 
-void SoftImplicitIntegrator::assembled()
-{
-    run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_);
-}
+void SoftImplicitIntegrator::assembled() { run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_); }
 
 void SoftImplicitIntegrator::advance(double dt)
 {

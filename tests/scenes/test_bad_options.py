@@ -35,7 +35,6 @@ BAD = [
     ("compaction", ["--integrator", "backward"], ["backward", "implicit"]),
     ("compaction", ["--integrator", "implicit", "--theta", "0.4"], ["theta", "0.4", "0.5"]),
     ("compaction", ["--integrator", "explicit", "--quasistatic"], ["--quasistatic", "explicit", "implicit"]),
-    ("compaction", ["--formulation", "updated", "--integrator", "implicit"], ["updated", "implicit", "total"]),
     ("compaction", ["--formulation", "eulerian"], ["eulerian", "total", "updated"]),
     ("compaction", ["--threads", "0"], ["--threads", "0"]),
     ("compaction", ["--out", "/proc/nowhere"], ["/proc/nowhere", "--out"]),

@@ -16,7 +16,7 @@ from softgrain.records import read_table  # noqa: E402
 RADIUS, SPEED = 1e-3, 1.0
 
 
-def column(*formulations):
+def column(*formulations, **engines):
     """Discs on top of each other between walls that fit, the upper one coming down; the wall's id."""
     O.reset()
     soft = O.materials.append(NeoHookeanMat(frictionAngle=0.2))
@@ -25,7 +25,7 @@ def column(*formulations):
         O.bodies.append(softDisc((RADIUS, (2 * k + 1) * RADIUS), RADIUS, soft, 60, 0.3 * k, formulation=formulation))
     top = O.bodies.append(softBox(2 * RADIUS, 2 * RADIUS * len(formulations), rigid))[-1]
     O.bodies[top].state.vel = (0, -SPEED, 0)
-    O.engines = softEngines(dt=1e-7)
+    O.engines = softEngines(**{"dt": 1e-7, **engines})
     return top
 
 
@@ -128,5 +128,35 @@ def examples_take_the_option(checks):
         checks.that("compaction, updated", packing.returncode == 0, said(packing))
 
 
+def implicit_steps(checks):
+    """As explicit ones, quasi-static too, and resumed as if never stopped."""
+    with Folder() as folder:
+        for form in ("total", "updated"):
+            process = run_example(folder, "squeeze.py", "--quick", "--quasistatic", "--out", form, "--formulation", form)
+            checks.that(f"squeeze, quasi-static, {form}", process.returncode == 0, said(process))
+        one, other = (read_table(os.path.join(folder, form, "squeeze.csv")) for form in ("total", "updated"))
+        force = "force_per_thickness_N_m"
+        error = abs(one[force][-10:] / other[force][-10:] - 1).max()
+        checks.that("the same force within 3 %", error < 0.03, error)
+        words = ["--grains", "12", "--points", "60", "--seed", "3", "--friction", "0.2", "--integrator", "implicit",
+                 "--formulation", "updated"]
+        for name, further in {"whole": ["--until", "0.86"], "parts": ["--until", "0.8"],
+                              "theta": ["--until", "0.86", "--theta", "0.5", "--material", "mr"]}.items():
+            process = run_example(folder, "compaction.py", "--out", name, *words, *further)
+            checks.that(f"compaction, implicit, {name}", process.returncode == 0, said(process))
+        process = run_example(folder, "compaction.py", "--out", "parts", "--resume", "--until", "0.86")
+        checks.that("resumed", process.returncode == 0, said(process))
+        whole, parts = (read_table(os.path.join(folder, name, "compaction.csv")) for name in ("whole", "parts"))
+        checks.close_to("the same stress", float(abs(whole["stress_top_Pa"] - parts["stress_top_Pa"]).max()), 0.0,
+                        1e-9 * whole["stress_top_Pa"].max())
+    top = column("updated", "total", integrator="implicit", dt=2e-7)
+    run(600)
+    soft = measures.softIntegrator()
+    missing = (soft.elasticEnergy() + soft.kineticEnergy() + soft.frictionDissipation + soft.contactDissipation
+               + soft.numericalDissipation - soft.externalWork) / soft.externalWork
+    checks.that("mixed forms: energy balance", abs(missing) < 5e-3, missing)
+    checks.that("mixed forms: pressed", O.forces.f(top)[1] > 0, O.forces.f(top))
+
+
 run_tests(both_forms_agree, read_outs_have_their_shapes, saved_and_loaded_goes_on_the_same, moved_and_held_by_hand,
-          bad_names_are_refused, examples_take_the_option)
+          bad_names_are_refused, examples_take_the_option, implicit_steps)

@@ -19,28 +19,32 @@ const std::vector<Named> laws { { neo_hookean(), "A_plates_NH.csv" }, { mooney_r
 
 struct Plates {
     ImplicitWorld world;
-    explicit Plates(const Material& material)
+    explicit Plates(const Material& material, bool updated = false)
     {
         world.settings.quasistatic = true;
-        world.add(make_grain(disc_mesh(276), material));
+        GrainStart start;
+        start.updated = updated;
+        world.add(make_grain(disc_mesh(276), material, start));
         world.planes = { { 1, 1, -1e-3, 0.1 }, { 1, -1, 1e-3, -0.1 } };
     }
     void squeeze(double share) { world.step(share * 1e-3 / 0.1); }
     double force() const { return (world.plane_force[1].y() - world.plane_force[0].y()) / 2; }
 };
 
-// Forces at single squeezes, with the ripple of points that come to touch: the bounds of the explicit scheme, which takes
-// means over half a per cent, are 0.6 % and 2.2 %.
-TEST(QuasiStaticPlates, ForceAgreesWithFiniteElements)
+struct Bounds {
+    double rms, worst; ///< of the force
+};
+
+void compare(bool updated, double from, const Bounds& bounds)
 {
     for (const auto& law : laws) {
         const Table table(law.file);
-        Plates plates(law.material);
+        Plates plates(law.material, updated);
         double squares = 0, worst = 0;
         int count = 0;
         for (int k = 1; k <= 160; ++k) {
             plates.squeeze(0.0025);
-            if (k < 20) continue;
+            if (k < from / 0.0025) continue;
             const double error = plates.force() / table.at("squeeze", 0.0025 * k, "F_N_per_m") - 1;
             squares += error * error;
             worst = std::max(worst, std::abs(error));
@@ -49,11 +53,18 @@ TEST(QuasiStaticPlates, ForceAgreesWithFiniteElements)
         std::printf("%s: force rms %.2f %%, worst %.2f %%; %d iterations, %d cuts, residual %.1e, penetration %.1e\n",
                     law.material.law, 100 * std::sqrt(squares / count), 100 * worst, plates.world.iterations,
                     plates.world.cuts, plates.world.worst_residual, plates.world.worst_penetration);
-        EXPECT_LE(std::sqrt(squares / count), 0.007);
-        EXPECT_LE(worst, 0.022);
+        EXPECT_LE(std::sqrt(squares / count), bounds.rms);
+        EXPECT_LE(worst, bounds.worst);
         EXPECT_LE(plates.world.worst_penetration, 1e-4);
     }
 }
+
+// Forces at single squeezes, with the ripple of points that come to touch: the bounds of the explicit scheme, which takes
+// means over half a per cent, are 0.6 % and 2.2 %.
+TEST(QuasiStaticPlates, ForceAgreesWithFiniteElements) { compare(false, 0.05, { 0.007, 0.022 }); }
+
+// The bounds of explicit steps in this form, from the squeeze on that they hold from.
+TEST(QuasiStaticPlates, ForceAgreesWithFiniteElementsInTheUpdatedForm) { compare(true, 0.1, { 0.01, 0.03 }); }
 
 TEST(QuasiStaticPlates, SqueezeToEightyPerCent)
 {

@@ -437,7 +437,8 @@ template <int Dim> void ImplicitStep<Dim>::take_stock(Outcome& outcome)
     for (const auto& ways : way_)
         for (double along : ways)
             way = std::max(way, std::abs(along));
-    outcome.missing_energy = std::max(std::abs(missing), -0.1 * outcome.dissipated) / (energy.exchanged + least_force_ * way);
+    outcome.missing_energy
+        = std::max(std::abs(missing), -0.1 * outcome.dissipated) / (energy.exchanged + least_force_ * way);
 }
 
 template class ImplicitStep<2>;

@@ -149,7 +149,7 @@ template <int Dim> bool ImplicitStep<Dim>::find_direction(const Outcome& outcome
         for (double* sum : { &now, &then, &floor })
             *sum /= counted;
         // once low enough kappa need not fall further; it must not rise again either, or the two would take turns
-        const double low = 1e-6 * settings_.tolerance * floor;
+        const double low = 1e-8 * settings_.tolerance * floor;
         floor = outcome.residual > 0.5 * settings_.tolerance ? low : std::clamp(kappa_, low, 1e3 * low);
         kappa_ = std::max(floor, now * std::clamp(std::pow(then / now, 3), least_left, 1.0));
         change = solve_contacts(kappa_, correction);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The updated-Lagrangian form of a grain: what it conserves, and where it agrees with the total-Lagrangian one.
+#include "support/implicit_world.hpp"
 #include "support/random.hpp"
 #include "support/sums.hpp"
 
@@ -123,30 +124,74 @@ TEST(UpdatedForm, FallsAsSymplecticEulerSays)
     EXPECT_LE((motion.position - Vec<2>(0.3, -0.2) - dt * dt * steps * (steps + 1) / 2 * world.gravity).norm(), 1e-15);
 }
 
-// At small strains the two forms have the same grid, in the same place, and the same law: displacements agree to the strain.
-TEST(UpdatedForm, IsTheTotalFormAtSmallStrains)
+/// Deformation gradients of a disc with a small velocity gradient, after these steps.
+template <class AnyWorld> std::vector<Mat<2>> vibrated(AnyWorld& world, bool updated, double dt, int steps)
 {
-    World worlds[2];
-    for (int form = 0; form < 2; ++form) {
-        GrainStart start;
-        start.updated = form == 1;
-        start.velocity_gradient = (Mat<2>() << 40, 5, -3, -40).finished();
-        worlds[form].add(make_grain(disc_mesh(124), neo_hookean(), start));
-    }
-    const double dt = step_of(worlds[0].grains[0], 0.5);
-    for (World& world : worlds)
-        for (int k = 0; k < 150; ++k)
-            world.step(dt);
-    worlds[0].release();
-    const auto total = worlds[0].grains[0].deformation_gradients(), moved = worlds[1].grains[0].deformation_gradients();
+    GrainStart start;
+    start.updated = updated;
+    start.velocity_gradient = (Mat<2>() << 40, 5, -3, -40).finished();
+    world.add(make_grain(disc_mesh(124), neo_hookean(), start));
+    for (int k = 0; k < steps; ++k)
+        world.step(dt);
+    world.grains[0].pull();
+    return world.grains[0].deformation_gradients();
+}
+
+/// Largest strain of the first, and largest difference.
+std::pair<double, double> apart(const std::vector<Mat<2>>& total, const std::vector<Mat<2>>& moved)
+{
     double strain = 0, apart = 0;
     for (size_t p = 0; p < total.size(); ++p) {
         strain = std::max(strain, (total[p] - Mat<2>::Identity()).norm());
         apart = std::max(apart, (moved[p] - total[p]).norm());
     }
-    std::printf("strain %.1e, forms apart by %.1e\n", strain, apart);
+    return { strain, apart };
+}
+
+// At small strains the two forms have the same grid, in the same place, and the same law: displacements agree to the strain.
+TEST(UpdatedForm, IsTheTotalFormAtSmallStrains)
+{
+    const double dt = step_of(make_grain(disc_mesh(124), neo_hookean(), {}), 0.5);
+    World worlds[2];
+    const auto [strain, explicitly] = apart(vibrated(worlds[0], false, dt, 150), vibrated(worlds[1], true, dt, 150));
+    std::printf("strain %.1e, forms apart by %.1e\n", strain, explicitly);
     EXPECT_GT(strain, 1e-4);
-    EXPECT_LE(apart, 0.05 * strain);
+    EXPECT_LE(explicitly, 0.05 * strain);
+    for (double theta : { 0.5, 1.0 }) {
+        ImplicitWorld implicit[2];
+        for (ImplicitWorld& world : implicit) {
+            world.settings.theta = theta;
+            world.settings.tolerance = 1e-6;
+        }
+        const auto [strain, implicitly]
+            = apart(vibrated(implicit[0], false, 5 * dt, 30), vibrated(implicit[1], true, 5 * dt, 30));
+        std::printf("implicit, theta %.1f: strain %.1e, forms apart by %.1e\n", theta, strain, implicitly);
+        EXPECT_GT(strain, 1e-4);
+        EXPECT_LE(implicitly, 0.05 * strain);
+    }
+}
+
+// Free flight by implicit steps.
+TEST(UpdatedForm, KeepsMomentumAndFallsByImplicitSteps)
+{
+    ImplicitWorld world;
+    world.settings.theta = 0.5;
+    world.settings.tolerance = 1e-8;
+    world.gravity = Vec<2>(1.5, -9.81);
+    const Mat<2> G = spin(4000) + (Mat<2>() << 2000, 500, -300, -1500).finished();
+    world.add(make_grain(disc_mesh(124), neo_hookean(), updated(G, Vec<2>(3, -2))));
+    world.step(1e-6);
+    const Motion<2> before = world.grains[0].motion;
+    constexpr int steps = 200;
+    for (int k = 0; k < steps; ++k)
+        world.step(1e-6);
+    const Motion<2>& after = world.grains[0].motion;
+    const Vec<2> gained = steps * 1e-6 * world.gravity;
+    std::printf("velocity off by %.1e m/s, angular momentum by %.1e of itself\n",
+                (after.velocity - before.velocity - gained).norm(),
+                after.angular_momentum[0] / before.angular_momentum[0] - 1);
+    EXPECT_LE((after.velocity - before.velocity - gained).norm(), 1e-7 * before.velocity.norm());
+    EXPECT_NEAR(after.angular_momentum[0] / before.angular_momentum[0], 1, 1e-3);
 }
 
 // E = V W(F) and the stress at every point of a uniform F, as in the total form.
