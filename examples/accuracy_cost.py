@@ -40,11 +40,19 @@ METHODS = {
     "total form": ({}, (60, 124, 276, 556, 1100, 2200), (60, 124, 276, 556), 99),
     "total form, step 0.1 µs": ({"dt_s": 1e-7}, (60, 124, 276), (60, 124), 99),
     "without cure of locking": ({"locking_cure": "off"}, (60, 124, 276, 556), (60, 124, 276), 99),
+    "implicit": ({"integrator": "implicit"}, (60, 124, 276, 556, 1100), (60, 124, 276), 99),
+    "quasi-static": ({"integrator": "quasistatic"}, (60, 124, 276, 556, 1100, 2200), (60, 124), 99),
     "updated form": ({"formulation": "updated"}, (60, 124, 276), (60, 124), 3),
     "updated form, step 0.1 µs": ({"formulation": "updated", "dt_s": 1e-7}, (60, 124, 276), (60,), 2),
+    "updated form, implicit": ({"formulation": "updated", "integrator": "implicit"}, (60, 124, 276), (60, 124), 99),
 }
-# One knob at a time, all others as in BASE.
-SWEEPS = {"surface_spacing": (0.5, 0.7, 1.4), "safety": (0.2, 0.5, 0.9), "tolerance": (1e-1, 1e-2, 1e-5)}
+# One knob at a time: its values besides that of BASE, and what else differs from BASE.
+SWEEPS = {
+    "surface spacing / cell width": ("surface_spacing", (0.5, 0.7, 1.4), {}),
+    "time step / stable step": ("safety", (0.2, 0.5, 0.9), {}),
+    "tolerance of the contact solver": ("tolerance", (1e-1, 1e-2, 1e-5), {}),
+    "implicit step [s]": ("dt_s", (5e-6, 2e-5, 1e-4), {"integrator": "implicit"}),
+}
 # All together: what the presets are chosen from, besides the total form with MANY points, of which one packing tells the
 # cost. On one grain with both materials.
 TOGETHER = {"points": (60, 124, 276, 556), "surface_spacing": (0.7, 1.0), "safety": (0.8,), "tolerance": (1e-2, 1e-3)}
@@ -86,9 +94,10 @@ def lines(quick):
     for name, (changes, grain, packing, most) in METHODS.items():
         result[name] = ([setting(**changes, points=n) for n in few(grain)],
                         [setting(**changes, points=n) for n in few(packing)], most)
-    for knob, values in SWEEPS.items():
-        swept = [setting(**{knob: value}) for value in sorted({*values[::2 if quick else 1], BASE[knob]})]
-        result[knob] = (swept, swept, 99)
+    for name, (knob, values, changes) in SWEEPS.items():
+        chosen = {*values[::2 if quick else 1], BASE[knob]} - {math.nan}
+        swept = [setting(**changes, **{knob: value}) for value in sorted(chosen)]
+        result[name] = (swept, swept, 99)
     return result
 
 
@@ -123,8 +132,8 @@ def make_job(case, knobs, sample, options):
     """The run of one setting. sample: the seed of a packing, or the number of the orientation of a grain's grid."""
     arguments = ["--material", knobs["material"], "--points", knobs["points"], "--surface-spacing",
                  knobs["surface_spacing"], "--safety", knobs["safety"], "--tolerance", knobs["tolerance"],
-                 "--locking-cure", knobs["locking_cure"], "--formulation", knobs["formulation"], "--integrator",
-                 knobs["integrator"]]
+                 "--locking-cure", knobs["locking_cure"], "--formulation", knobs["formulation"],
+                 *(["--quasistatic"] if knobs["integrator"] == "quasistatic" else ["--integrator", knobs["integrator"]])]
     if not math.isnan(knobs["dt_s"]):
         arguments += ["--dt", knobs["dt_s"]]
     if case == "grain":
@@ -142,10 +151,11 @@ def expected_seconds(case, knobs):
     """CPU time of a run, roughly: it orders the runs and tells the time to go."""
     share = knobs["points"] / 276
     stable = 5e-7 / math.sqrt(share)
-    slower = 0.8 / knobs["safety"] if math.isnan(knobs["dt_s"]) else stable / knobs["dt_s"]
-    if case == "grain":
-        return 2 + 0.5 * share**1.4 * slower * (5 if knobs["formulation"] == "updated" else 1)
-    return 2 + 2.7 * share**1.4 * slower / knobs["surface_spacing"] * (30 if knobs["formulation"] == "updated" else 1)
+    slower = 0.8 / knobs["safety"] if math.isnan(knobs["dt_s"]) else max(stable / knobs["dt_s"], 1)
+    grain, packing = {"explicit": (0.5, 2.7), "implicit": (0.5, 8), "quasistatic": (0.5, 20)}[knobs["integrator"]]
+    if knobs["formulation"] == "updated":
+        grain, packing = (5 * grain, 30 * packing) if knobs["integrator"] == "explicit" else (2 * grain, 2 * packing)
+    return 2 + share**1.4 * slower * (grain if case == "grain" else packing / knobs["surface_spacing"])
 
 
 def reference(material):
@@ -214,7 +224,8 @@ def conclude(study, options):
     drawn = {name: (grain, packing) for name, (grain, packing, _) in lines(options.quick).items()}
     table, candidates = table_of_presets(study, options, measured)
     write_json(study.path("accuracy.json"), table)
-    figures.draw(measured, {name: drawn[name] for name in METHODS}, {name: drawn[name] for name in SWEEPS},
+    figures.draw(measured, {name: drawn[name] for name in METHODS},
+                 {name: (knob, *drawn[name]) for name, (knob, _, _) in SWEEPS.items()},
                  BASE, candidates, table, study.path)
     errors = {name: {"grain": [measured.grain(knobs) for knobs in grain],
                      "packing": [measured.packing(knobs) for knobs in packing]} for name, (grain, packing) in drawn.items()}

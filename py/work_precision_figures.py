@@ -11,15 +11,14 @@ from .work_precision import front
 FLOOR = 1e-9        # errors below are drawn here
 BESIDE = ((5, 5), (5, -12), (-20, -12), (-20, 5))      # where labels stand, line after line [points]
 ON_GRAIN, IN_PACKING = "CPU time of one grain [s]", "CPU time of a packing [s]"
-KNOB_NAMES = {"surface_spacing": "surface spacing / cell width", "safety": "time step / stable step",
-              "tolerance": "tolerance of the contact solver"}
 
 
 def draw(measured, methods, sweeps, base, candidates, table, path):
     """Writes figure1.png to figure5.png to the paths that the function `path` makes of these.
 
     measured    work_precision.Measured
-    methods     name -> (settings on one grain, settings in packings), a line each; sweeps: the same of single knobs
+    methods     name -> (settings on one grain, settings in packings), a line each
+    sweeps      name -> (knob, settings on one grain, settings in packings), a line each
     base        the setting that all sweeps share
     candidates  (CPU time [s], error [-], ...) of every setting that presets were chosen from
     table       the content of accuracy.json
@@ -52,12 +51,12 @@ def _methods(found, time, errors, path):
 
 def _knobs(measured, sweeps, base, path):
     figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9))
-    for index, (knob, (grain, packing)) in enumerate(sweeps.items()):
+    for index, (name, (knob, grain, packing)) in enumerate(sweeps.items()):
         for axis, found, error in ((axes[0], _found(measured.grain, grain), "force"),
                                    (axes[1], _found(measured.packing, packing), "stress")):
             points = [("" if knobs == base else f"{knobs[knob]:g}", errors["cpu_s"], *_size(errors[error]))
                       for knobs, errors in found]
-            _line(axis, KNOB_NAMES[knob], points, index)
+            _line(axis, name, points, index)
     axes[0].set(xlabel=ON_GRAIN, ylabel="error of the force, rms [-]")
     axes[1].set(xlabel=IN_PACKING, ylabel="difference of the stress [-]")
     for axis, errors, error in ((axes[0], measured.grain(base), "force"), (axes[1], measured.packing(base), "stress")):
@@ -116,7 +115,7 @@ def _draw_lines(axis, lines):
 def _line(axis, name, points, index):
     colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
     costs, errors = [cost for _, cost, _, _ in points], [max(error, FLOOR) for _, _, error, _ in points]
-    axis.plot(costs, errors, marker=marker, color=colour, label=name)
+    axis.plot(costs, errors, "-" if index < len(COLOURS) else "--", marker=marker, color=colour, label=name)
     for (label, *_, spread), cost, error in zip(points, costs, errors):
         if spread > 0:
             axis.plot([cost, cost], [max(error - spread, error / 5), error + spread], color=colour, linewidth=1)
@@ -128,7 +127,7 @@ def _one_legend(figure, axes):
     for axis in axes:
         _whole_decades(axis)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncol=3)
-    figure.tight_layout(rect=(0, 0, 1, 0.88))
+    figure.tight_layout(rect=(0, 0, 1, 0.86))
 
 
 def _whole_decades(axis):

@@ -19,8 +19,9 @@ void SoftLoads::gather(Scene& scene, const Vector3r& gravity, int threads)
     scene.forces.sync();
     const int count = int(soft_.states.size());
     loads_.resize(count);
+    constexpr size_t grains_of_a_thread = 50;
     std::exception_ptr problem; // must not leave the parallel loop
-#pragma omp parallel for num_threads(threads) schedule(static)
+#pragma omp parallel for num_threads(softgrain::team(threads, size_t(count) / grains_of_a_thread)) schedule(static)
     for (int i = 0; i < count; ++i) {
         const Body::id_t id = soft_.states[i]->grain.id;
         try {

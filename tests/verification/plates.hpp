@@ -2,7 +2,10 @@
 // Discs between two frictionless rigid plates that approach each other, and what is read from it.
 #pragma once
 
+#include "support/random.hpp"
 #include "support/world.hpp"
+
+#include <array>
 
 namespace softgrain::testing_support {
 
@@ -20,6 +23,13 @@ struct Squeeze {
     double off_middle = 0;                       ///< how far from the middle two discs meet [m]
     int steps = 0;
 };
+
+/// Offset of the grid [cell widths] and turn of the grain.
+inline std::array<double, 3> random_placing(Random& random)
+{
+    const double x = random.uniform(0, 1), y = random.uniform(0, 1);
+    return { x, y, random.uniform(0, 2 * M_PI) };
+}
 
 struct SqueezeCase {
     Material material = neo_hookean();

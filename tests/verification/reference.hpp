@@ -40,6 +40,17 @@ public:
         }
     }
 
+    /// The rows where this column has this value.
+    Table where(const std::string& name, double value) const
+    {
+        Table part;
+        const auto& column = numbers_.at(name);
+        for (const auto& [other, values] : numbers_)
+            for (size_t i = 0; i < column.size(); ++i)
+                if (column[i] == value) part.numbers_[other].push_back(values.at(i));
+        return part;
+    }
+
     const std::vector<double>& operator[](const std::string& name) const { return numbers_.at(name); }
     const std::vector<std::string>& words(const std::string& name) const { return words_.at(name); }
 
@@ -62,6 +73,8 @@ public:
     }
 
 private:
+    Table() = default;
+
     std::map<std::string, std::vector<double>> numbers_;
     std::map<std::string, std::vector<std::string>> words_;
 };

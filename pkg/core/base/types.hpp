@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +14,9 @@ template <int Dim> using Mat = Eigen::Matrix<double, Dim, Dim>;
 
 /// Integer power, for sizes such as nodes in a stencil: 3^Dim.
 constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+
+/// Threads for so many pieces of work: one that nobody has to wait for costs nothing, a team does.
+inline int team(int threads, size_t pieces) { return int(std::clamp<size_t>(pieces, 1, size_t(std::max(1, threads)))); }
 
 /// A user's mistake: one sentence that names the object, the value and the fix.
 class UserError : public std::invalid_argument {

@@ -24,8 +24,13 @@ struct Resolution {
     bool mean_dilatation = true;     ///< cure of volumetric locking: cells have one volume change, not each point its own
     std::array<double, 3> offset {}; ///< shift of the grid under the grain [cell widths]
 
-    /// Light nodes soften narrow contacts, as they should be, but let the surface of a coarse grain wrinkle.
-    double threshold() const { return node_threshold > 0 ? node_threshold : std::clamp(3.0 / points, 0.03, 0.05); }
+    /// Light nodes soften narrow contacts, as they should be, but let the surface wrinkle: that of a coarse grain under any
+    /// squeeze, that of a fine one, which has more places for it, under a large one.
+    double threshold() const
+    {
+        if (node_threshold > 0) return node_threshold;
+        return points < 1000 ? std::clamp(3.0 / points, 0.03, 0.05) : 0.035;
+    }
 };
 
 template <int Dim> class Discretisation : public SurfaceOperator<Dim> {

@@ -370,11 +370,10 @@ template <int Dim> int NonlinearGaussSeidel<Dim>::solve(ContactProblem<Dim>& pro
     // from so many sweeps on: pairs are treated thoroughly, then with care
     constexpr int slow = 16, stuck = 64;
     constexpr typename Sweeper::Effort quick { 8, 1e-4, 1 }, thorough { 200, 1e-8, 1 }, careful { 200, 1e-8, 0.5 };
-    const int team = std::clamp(int(problem.contacts.size()) / least_contacts_of_a_thread, 1, std::max(1, threads));
     int sweeps = 0;
     typename Sweeper::Effort effort = quick;
     bool done = false;
-#pragma omp parallel num_threads(team)
+#pragma omp parallel num_threads(team(threads, problem.contacts.size() / least_contacts_of_a_thread))
     {
         for (int phase = 0; phase < Sweeper::phases; ++phase)
 #pragma omp for schedule(static, 1)

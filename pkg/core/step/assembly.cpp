@@ -230,7 +230,7 @@ template <int Dim> Assembly<Dim>::~Assembly()
 template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravity, int threads)
 {
     const int count = int(batches_.size());
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, batches_.size())) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
@@ -258,7 +258,7 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         least_J_[b] = least;
     }
     const int single = int(updated_.size());
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, updated_.size())) schedule(dynamic)
     for (int g = 0; g < single; ++g) {
         predict_updated(*updated_[g], dt, gravity);
         const double J = updated_[g]->min_J;
@@ -276,7 +276,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
     const int count = int(batches_.size()), single = int(updated_.size());
     std::vector<char> sound(count + single, true);
     std::vector<std::string> complaint(single);
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, batches_.size())) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
@@ -305,7 +305,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         for (const Grain<Dim>* grain : members_[b])
             sound[b] &= !leaps(*grain, dt);
     }
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, updated_.size())) schedule(dynamic)
     for (int g = 0; g < single; ++g) {
         Grain<Dim>& grain = *updated_[g];
         if (before) before(grain);
@@ -322,7 +322,7 @@ template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit
     const int count = int(batches_.size()), single = int(updated_.size());
     std::vector<char> sound(count + single, true);
     std::vector<std::string> complaint(single);
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, batches_.size())) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         motion_kernels<Dim>().extend[batch.wide()](batch.data());
@@ -334,7 +334,7 @@ template <int Dim> void Assembly<Dim>::renew(double dt, int threads, const Visit
             least_J_[b] = std::min(least_J_[b], members_[b][lane]->min_J = batch.per_lane[lane]);
         sound[b] = observe(b, dt, after);
     }
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, updated_.size())) schedule(dynamic)
     for (int g = 0; g < single; ++g) {
         Grain<Dim>& grain = *updated_[g];
         complaint[g] = take_updated(grain, dt);
@@ -427,7 +427,7 @@ template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& proble
 template <int Dim> void Assembly<Dim>::evaluate_stretch(int threads)
 {
     const int count = int(batches_.size());
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, batches_.size())) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         batch.law.energy[batch.wide()](batch.data(), batch.per_lane.data() + batch.lanes, batch.per_lane.data());
@@ -435,7 +435,7 @@ template <int Dim> void Assembly<Dim>::evaluate_stretch(int threads)
             members_[b][lane]->min_stretch = batch.per_lane[lane];
     }
     const int single = int(updated_.size());
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, updated_.size())) schedule(dynamic)
     for (int g = 0; g < single; ++g)
         updated_[g]->elastic_energy();
 }
@@ -443,7 +443,7 @@ template <int Dim> void Assembly<Dim>::evaluate_stretch(int threads)
 template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
 {
     const int count = int(batches_.size());
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, batches_.size())) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         KernelData<Dim> data = batch.data();
@@ -460,7 +460,7 @@ template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
         }
     }
     const int single = int(updated_.size());
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(threads, updated_.size())) schedule(dynamic)
     for (int g = 0; g < single; ++g) {
         Grain<Dim>& grain = *updated_[g];
         const auto energy = [&](double back) {

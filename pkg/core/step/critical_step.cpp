@@ -104,7 +104,7 @@ template <int Dim> double SmallestCriticalStep<Dim>::operator()(const std::vecto
         least = std::min(least, smallest_of(group));
     const auto end = std::find_if(first, bounded.end(), [least](const auto& grain) { return grain.second >= least; });
     const auto groups = groups_of<Dim>({ first, end });
-#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(min : least)
+#pragma omp parallel for num_threads(team(threads, groups.size())) schedule(dynamic) reduction(min : least)
     for (size_t g = 0; g < groups.size(); ++g)
         least = std::min(least, smallest_of(groups[g]));
     return without_noise(least);

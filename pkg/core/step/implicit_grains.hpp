@@ -144,7 +144,7 @@ private:
     template <class Work> void each_part(const Work& work)
     {
         const int count = int(parts_.size());
-#pragma omp parallel for num_threads(settings_.threads) schedule(dynamic)
+#pragma omp parallel for num_threads(team(settings_.threads, parts_.size())) schedule(dynamic)
         for (int b = 0; b < count; ++b)
             work(parts_[size_t(b)]);
     }

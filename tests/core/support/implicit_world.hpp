@@ -55,6 +55,17 @@ public:
         }
         return settings.quasistatic ? elastic : kinetic + elastic;
     }
+    /// Forces of a plane on the points of a grain in the last step [N/m]: (point, force).
+    std::vector<std::pair<int, Vec<2>>> forces_of_plane(size_t plane, size_t grain)
+    {
+        std::vector<std::pair<int, Vec<2>>> forces;
+        each_plane_pair([&](const auto& contacts, size_t w, size_t i) {
+            if (w != plane || i != grain) return;
+            for (const auto& point : contacts.points)
+                forces.push_back({ point.point, point.force });
+        });
+        return forces;
+    }
     double min_J() const { return assembly_->min_J(); }
 
 private:
