@@ -12,6 +12,8 @@ from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
 from softgrain import *  # noqa: E402
 from softgrain.records import read_table  # noqa: E402
 from yade import O  # noqa: E402
+from yade.utils import box  # noqa: E402
+from yade.wrapper import FrictMat  # noqa: E402
 
 SMALL = ["--grains", "20", "--points", "60", "--until", "0.9", "--seed", "3"]
 
@@ -81,6 +83,27 @@ def auto(checks):
             checks.that("what it picked stands in the summary", chosen == expected, chosen)
 
 
+def carried(checks):
+    """Two boxes press on a disc, then go sideways together: where friction holds, the disc goes with them."""
+    way = 0.1e-3
+    for quasistatic in (True, False):
+        O.reset()
+        soft = O.materials.append(NeoHookeanMat(lambda_=61e6, mu=1.26e6, density=1000))
+        stone = O.materials.append(FrictMat(frictionAngle=0))
+        O.bodies.append(softDisc((0, 0), 1e-3, soft, 60))
+        boxes = [box((0, side * 1.5e-3, 0), (3e-3, 0.5e-3, 1e-3), fixed=True, material=stone) for side in (-1, 1)]
+        O.bodies.append(boxes)
+        O.engines = softEngines(dt=1e-4, integrator="implicit", quasistatic=quasistatic, friction=1, wallFriction=1)
+        for velocities in ((0, 0.05), (0, -0.05)), ((way / 2e-3, 0), (way / 2e-3, 0)):
+            before = O.bodies[0].state.pos[0]
+            for body, velocity in zip(boxes, velocities):
+                body.state.vel = (*velocity, 0)
+            O.run(20, True)
+        went = (O.bodies[0].state.pos[0] - before) / way
+        # on that way the points in touch slide by 1e-3 of it, and with inertia the disc swings on them
+        checks.that(f"carried along, {'quasi-static' if quasistatic else 'implicit'}", abs(went - 1) < 5e-3, went)
+
+
 def refusals(checks):
     O.reset()
     soft = O.materials.append(NeoHookeanMat(lambda_=61e6, mu=1.26e6, density=1000))
@@ -98,4 +121,4 @@ def refusals(checks):
         O.engines[-1].theta = 0.3
 
 
-run_tests(squeeze, compaction, resumed, auto, refusals)
+run_tests(squeeze, compaction, resumed, auto, carried, refusals)

@@ -90,7 +90,7 @@ template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
         known[key(contact)] = &contact;
     grains_.mark();
     contacts = scene_->contacts(ahead, dt);
-    make_room();
+    make_room(dt);
     locate();
     for (auto& contact : contacts) {
         const auto found = known.find(key(contact));
@@ -149,8 +149,8 @@ template <int Dim> double ImplicitStep<Dim>::contact_residual() const
     return std::sqrt(error) / std::max(std::sqrt(r2), least_force_);
 }
 
-/// For the values of the surfaces; looking for contacts may find other bodies.
-template <int Dim> void ImplicitStep<Dim>::make_room()
+/// For the values of the surfaces; looking for contacts may find other bodies. Rigid ones go their ways.
+template <int Dim> void ImplicitStep<Dim>::make_room(double dt)
 {
     points_.clear();
     for (SurfaceField* field : { &way_, &forces_, &moved_, &conjugate_ })
@@ -159,6 +159,9 @@ template <int Dim> void ImplicitStep<Dim>::make_room()
         points_.push_back(scene_->bodies[b]->count);
         for (SurfaceField* field : { &way_, &forces_, &moved_, &conjugate_ })
             (*field)[b].assign(size_t(Dim) * scene_->bodies[b]->count, 0);
+        if (b < assembly_.grains().size()) continue;
+        for (size_t i = 0; i < way_[b].size(); ++i)
+            way_[b][i] = dt * scene_->bodies[b]->velocity[i];
     }
 }
 
@@ -166,7 +169,7 @@ template <int Dim> void ImplicitStep<Dim>::make_room()
 template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& gravity)
 {
     contacts = scene_->contacts(ahead, dt);
-    make_room();
+    make_room(dt);
     grains_.begin(dt, settings_, gravity, [&](const Vec<Dim>& x) { return scene_->prediction(x, dt); });
     using Start = typename ImplicitGrains<Dim>::Start;
     constexpr double too_far = 0.5; // radii

@@ -67,7 +67,7 @@ public:
 
 private:
     void choose_hold(const Outcome& outcome);
-    void make_room();
+    void make_room(double dt);
     void begin(double dt, const Vec<Dim>& gravity);
     void locate();
     void look_or_locate(double dt);
