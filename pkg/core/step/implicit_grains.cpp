@@ -263,15 +263,16 @@ template <int Dim> void ImplicitGrains<Dim>::strike(const SurfaceField& impulses
     });
 }
 
-// With contact forces that work over the way, the scheme loses, for linear internal forces f,
-//     m (v' - v) . [(u' - u) / h - (v' + v) / 2] - (theta - 1/2) (f' - f) . (u' - u).
+// With contact forces that work over the way, the scheme loses
+//     m (v' - v) . [(u' - u) / h - (v' + v) / 2] - (theta - 1/2) (f' - f) . (u' - u) + E - E' - (f' + f) . (u' - u) / 2.
+// The last three terms are nothing for linear internal forces f.
 template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::energy()
 {
     const bool rest = settings_.quasistatic;
     std::vector<Energy> of_part(parts_.size(), Energy {});
     each_part([&](Part& part) {
         struct Sums {
-            double kinetic = 0, by_contacts = 0, by_loads = 0, lost = 0;
+            double kinetic = 0, by_contacts = 0, by_loads = 0, lost = 0, middle = 0;
         } of_lane[most_lanes];
         part.body->forces(part.place, part.internal);
         part.body->energy(part.place, part.per_lane.data(), part.per_lane.data() + part.lanes());
@@ -286,6 +287,7 @@ template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::ene
             sum.kinetic += m * (v * v - before * before) / 2;
             sum.lost += m * (v - before) * (way / dt_ - (v + before) / 2)
                 - (settings_.theta - 0.5) * (part.internal[k] - part.force[k]) * way;
+            sum.middle += (part.internal[k] + part.force[k]) * way / 2;
         });
         Energy& energy = of_part[size_t(&part - parts_.data())];
         for (size_t lane = 0; lane < part.index.size(); ++lane) {
@@ -293,12 +295,15 @@ template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::ene
             const double unit = std::pow(part.grain(lane).radius, Dim), elastic = part.per_lane[lane] - part.energy[lane];
             energy.gained += unit * (sum.kinetic + elastic - sum.by_loads);
             energy.exchanged += unit * (std::abs(sum.kinetic) + std::abs(elastic));
-            energy.dissipated += unit * (rest ? sum.by_contacts + sum.by_loads - elastic : sum.lost);
+            const double bent = rest ? 0 : -elastic - sum.middle;
+            energy.dissipated += unit * (rest ? sum.by_contacts + sum.by_loads - elastic : sum.lost + bent);
+            energy.bent += unit * bent;
         }
     });
     Energy total {};
     for (const Energy& part : of_part)
-        total = { total.gained + part.gained, total.exchanged + part.exchanged, total.dissipated + part.dissipated };
+        total = { total.gained + part.gained, total.exchanged + part.exchanged, total.dissipated + part.dissipated,
+                  total.bent + part.bent };
     return total;
 }
 

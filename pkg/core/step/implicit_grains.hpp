@@ -99,8 +99,8 @@ public:
     struct Energy {
         double gained;    ///< kinetic and elastic, less the work of body forces
         double exchanged; ///< changes of kinetic and elastic energies of all grains, without their signs
-        double
-            dissipated; ///< by the scheme; quasi-static: all work of the contact forces of the last load that is not stored
+        double dissipated; ///< by the scheme; quasi-static: work of the contact forces of the last load that is not stored
+        double bent;       ///< of it: what linear internal forces would not lose
     };
     Energy energy();
     /// Back to the start of the step.

@@ -19,23 +19,31 @@ void ImplicitRun<Dim>::advance(double dt, const ImplicitSettings& settings, cons
                                ImplicitScene<Dim>& scene, const Accepted& accepted)
 {
     report = {};
+    double lacking = 0;    // substep that was cut for its energy alone [s]
+    bool as_it_is = false; // shorter ones fail: takes any that converges
     for (double rest = dt; rest > 0;) {
         const double wished = substep > 0 ? substep : dt;
         const double h = rest / std::ceil(rest / wished - 1e-9); // no crumb at the end
         const auto outcome = step.attempt(h, settings, gravity, scene);
         report.iterations += outcome.iterations;
-        // for theta = 1 the scheme is stable by what it dissipates
-        const bool conserving = !settings.quasistatic && settings.theta < 1;
-        const double missing = conserving ? outcome.missing_energy / most_missing : 0;
-        if (!outcome.converged || (missing > 1 && h > shortest_for_energy * dt)) {
-            if (outcome.converged) step.undo();
+        const double missing = settings.quasistatic ? 0 : outcome.missing_energy / most_missing;
+        if (!outcome.converged || (missing > 1 && !as_it_is && h > shortest_for_energy * dt)) {
             ++report.cuts;
             substep = h / 2;
+            if (outcome.converged) {
+                step.undo();
+                lacking = h;
+            } else if (!as_it_is && (lacking > 0 || substep < smallest * dt)) {
+                as_it_is = true;
+                substep = lacking > 0 ? lacking : dt;
+            }
             if (substep < smallest * dt)
                 throw SimulationError("the implicit step cannot go on: " + outcome.trouble + " even in a step of " + shown(h)
                                       + " s.");
             continue;
         }
+        lacking = 0;
+        as_it_is = false;
         ++report.substeps;
         report.residual = std::max(report.residual, outcome.residual);
         report.distance = std::max(report.distance, outcome.distance);

@@ -5,8 +5,8 @@
 
 namespace softgrain {
 
-/// Takes steps of the implicit scheme in as many substeps as they need: one that fails is halved, and after one that went
-/// well the next is longer again.
+/// Takes steps of the implicit scheme in as many substeps as they need: one that fails or creates energy is halved, and after
+/// one that went well the next is longer again. Energy is let be where no shorter substep converges.
 template <int Dim> class ImplicitRun {
 public:
     explicit ImplicitRun(Assembly<Dim>& assembly)
@@ -26,7 +26,7 @@ public:
     double substep = 0; ///< to be tried next [s]; 0: the whole step
 
     /// Calls accepted(length, outcome) after every substep: it takes contact forces from `step`, and renews the assembly.
-    /// Throws SimulationError when not even a millionth of the step can be taken.
+    /// Throws SimulationError when neither the step nor any part of it down to a millionth can be taken.
     using Accepted = std::function<void(double, const typename ImplicitStep<Dim>::Outcome&)>;
     void advance(double dt, const ImplicitSettings& settings, const Vec<Dim>& gravity, ImplicitScene<Dim>& scene,
                  const Accepted& accepted);

@@ -440,8 +440,12 @@ template <int Dim> void ImplicitStep<Dim>::take_stock(Outcome& outcome)
     for (const auto& ways : way_)
         for (double along : ways)
             way = std::max(way, std::abs(along));
-    outcome.missing_energy
-        = std::max(std::abs(missing), -0.1 * outcome.dissipated) / (energy.exchanged + least_force_ * way);
+    double opened = 0; // work of gaps that open from where penetration is let pass
+    for (const auto& contact : contacts)
+        opened += contact.force * most_penetration * contact.size;
+    const double created = -outcome.dissipated - outcome.work.contact_dissipation - opened;
+    const double bent = settings_.theta < 1 ? std::abs(energy.bent) : 0;
+    outcome.missing_energy = std::max({ std::abs(missing), created, bent }) / (energy.exchanged + least_force_ * way);
 }
 
 template class ImplicitStep<2>;

@@ -48,8 +48,8 @@ public:
         double penetration = 0; ///< deepest [radius of the smaller body]
         double dissipated = 0;  ///< by the scheme [J]
         EnergyBalance work;     ///< of the contacts in the step
-        /// That the balance of the step lacks, over changes of kinetic and elastic energies and what forces that count as none
-        /// work.
+        /// That the balance of the step lacks, or scheme and contacts create, or for theta < 1 non-linear internal forces make
+        /// it off by; over changes of kinetic and elastic energies and what forces that count as none work.
         double missing_energy = 0;
     };
     /// Moves the grains by a step; leaves them at its start when it does not converge. After success `contacts` holds the

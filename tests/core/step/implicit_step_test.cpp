@@ -96,6 +96,7 @@ TEST(ImplicitStep, IsCleanAtAnyLength)
         EXPECT_LE(press.world.worst_residual, press.world.settings.tolerance);
         EXPECT_GT(press.world.min_J(), 0.5);
         EXPECT_LE(press.world.last.distance, 1e-5);
+        EXPECT_NEAR(press.residual(), 0, 2e-3);
     }
 }
 
