@@ -5,22 +5,6 @@
 #include <cmath>
 
 namespace softgrain {
-namespace {
-
-    /// Projection on the Coulomb cone { r : |r_t| <= mu r_n }.
-    template <int Dim> Vec<Dim> cone_projection(const Vec<Dim>& r, const Vec<Dim>& n, double mu)
-    {
-        const double normal = r.dot(n);
-        const Vec<Dim> tangential = r - normal * n;
-        const double size = tangential.norm();
-        if (mu * size <= -normal) return Vec<Dim>::Zero(); // first: without friction it holds the whole axis below
-        if (size <= mu * normal) return r;
-        const double kept = (normal + mu * size) / (1 + mu * mu);
-        return kept * n + (size > 0 ? mu * kept / size : 0) * tangential;
-    }
-
-} // namespace
-
 template <int Dim> double ContactProblem<Dim>::residual() const
 {
     double inertia = 0;

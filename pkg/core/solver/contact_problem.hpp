@@ -10,6 +10,18 @@
 
 namespace softgrain {
 
+/// Projection on the Coulomb cone { r : |r_t| <= mu r_n }.
+template <int Dim> Vec<Dim> cone_projection(const Vec<Dim>& r, const Vec<Dim>& n, double mu)
+{
+    const double normal = r.dot(n);
+    const Vec<Dim> tangential = r - normal * n;
+    const double size = tangential.norm();
+    if (mu * size <= -normal) return Vec<Dim>::Zero(); // first: without friction it holds the whole axis below
+    if (size <= mu * normal) return r;
+    const double kept = (normal + mu * size) / (1 + mu * mu);
+    return kept * n + (size > 0 ? mu * kept / size : 0) * tangential;
+}
+
 template <int Dim> struct Contact {
     int body;  ///< that the point is on, place in ContactProblem::bodies
     int other; ///< that the face is on; -1: a rigid plane

@@ -97,8 +97,8 @@ public:
     void strike(const SurfaceField& impulses, double share);
     /// Of the accepted step [J].
     struct Energy {
-        double gained;    ///< kinetic and elastic, less the work of body forces
-        double exchanged; ///< changes of kinetic and elastic energies of all grains, without their signs
+        double gained;     ///< kinetic and elastic, less the work of body forces
+        double exchanged;  ///< changes of kinetic and elastic energies of all grains, without their signs
         double dissipated; ///< by the scheme; quasi-static: work of the contact forces of the last load that is not stored
         double bent;       ///< of it: what linear internal forces would not lose
     };

@@ -81,8 +81,9 @@ template <int Dim> void ImplicitStep<Dim>::start_values()
 /// Looks for contacts anew where the grains are now; those that go on keep forces and slacks.
 template <int Dim> void ImplicitStep<Dim>::renew_contacts(double dt)
 {
-    const auto key = [](const BarrierContact<Dim>& c) {
-        return std::make_tuple(c.body, c.other, c.point, c.other < 0 ? c.normal[0] + 2 * c.normal[1] : 0.0);
+    const auto key = [&](const BarrierContact<Dim>& c) { // places among the bodies may change
+        const Surface<Dim>* other = c.other < 0 ? nullptr : scene_->bodies[size_t(c.other)];
+        return std::make_tuple(scene_->bodies[size_t(c.body)], other, c.point, other ? 0.0 : c.normal[0] + 2 * c.normal[1]);
     };
     std::map<decltype(key(contacts[0])), const BarrierContact<Dim>*> known;
     const std::vector<BarrierContact<Dim>> before = std::move(contacts);
@@ -127,25 +128,19 @@ template <int Dim> double ImplicitStep<Dim>::mean_stiffness() const
     return known ? sum / known : shear_modulus_;
 }
 
-/// || r - P_K(r - u - mu |u_t| n) || / max(|r|, |u|) with u = (gap, slide) in units of force through the mean stiffness.
+/// || r - P_K(r - u - mu |u_t| n) || / |r| with u = (gap, slide) in units of force through the mean stiffness. Not over
+/// max(|r|, |u|), as Siconos has it: far points would hide what is wrong with those that touch.
 template <int Dim> double ImplicitStep<Dim>::contact_residual() const
 {
     const double stiffness = mean_stiffness();
     double error = 0, r2 = 0;
     for (const auto& contact : contacts) {
-        const double mu = contact.friction, un = stiffness * contact.gap, ut = mu > 0 ? stiffness * contact.slide : 0;
-        const double n = contact.force - un - mu * std::abs(ut), t = contact.shear - ut, size = std::abs(t);
-        double pn = n, pt = t;
-        if (mu * size <= -n || (mu == 0 && n < 0))
-            pn = pt = 0;
-        else if (size > mu * n) {
-            pn = (n + mu * size) / (1 + mu * mu);
-            pt = size > 0 ? mu * pn * t / size : 0;
-        }
-        error += std::pow(contact.force - pn, 2) + std::pow(contact.shear - pt, 2);
-        r2 += contact.force * contact.force + contact.shear * contact.shear;
+        const Vec<Dim> r = contact.total();
+        const double cone = contact.gap + contact.friction * std::abs(contact.slide);
+        const Vec<Dim> target = r - stiffness * (cone * contact.normal + contact.slide * contact.tangent());
+        error += (r - cone_projection<Dim>(target, contact.normal, contact.friction)).squaredNorm();
+        r2 += r.squaredNorm();
     }
-    // not |u| too, as Siconos has it: far points would hide what is wrong with those that touch
     return std::sqrt(error) / std::max(std::sqrt(r2), least_force_);
 }
 
