@@ -12,7 +12,7 @@ from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
 from softgrain import *  # noqa: E402
 from softgrain.records import read_table  # noqa: E402
 from yade import O  # noqa: E402
-from yade.utils import box  # noqa: E402
+from yade.utils import box, facet, wall  # noqa: E402
 from yade.wrapper import FrictMat  # noqa: E402
 
 SMALL = ["--grains", "20", "--points", "60", "--until", "0.9", "--seed", "3"]
@@ -83,6 +83,37 @@ def auto(checks):
             checks.that("what it picked stands in the summary", chosen == expected, chosen)
 
 
+def into_a_slit(speed, **engines):
+    """Mean force on a wall that presses a disc of 40 points into a slit between facets, 0.28 to 0.3 R deep [N/m]."""
+    R = 1e-3
+    O.reset()
+    soft = O.materials.append(NeoHookeanMat(lambda_=61e6, mu=1.26e6, density=1000))
+    stone = O.materials.append(FrictMat(frictionAngle=0))
+    O.bodies.append(softDisc((0, 0), R, soft, 40))
+    for (x0, y0), (x1, y1) in (((-2, -0.97), (-0.3, -0.97)), ((0.35, -0.97), (2, -0.5))):
+        a, b, c, d = [(x * R, y * R, z * R) for x, y, z in ((x0, y0, -2), (x1, y1, -2), (x1, y1, 3), (x0, y0, 3))]
+        O.bodies.append([facet(corners, material=stone) for corners in ((a, b, c), (a, c, d))])
+    for axis, at, sense in ((0, -1, 1), (0, 1.05, -1), (1, 1, -1)):
+        O.bodies.append(wall(at * R, axis=axis, sense=sense, material=stone))
+    top = O.bodies[-1]
+    top.state.vel = (0, -speed, 0)
+    O.engines = softEngines(**engines)
+    forces = []
+    while top.state.pos[1] > 0.7 * R:
+        O.step()
+        if top.state.pos[1] < 0.72 * R:
+            forces.append(O.forces.f(top.id)[1])
+    return numpy.mean(forces)
+
+
+def slit(checks):
+    """Ends of facets go into the grain where the explicit scheme has them."""
+    expected = into_a_slit(0.02)
+    for name, found in (("quasi-static", into_a_slit(0.1, dt=4e-6, integrator="implicit", quasistatic=True)),
+                        ("implicit", into_a_slit(0.02, dt=2e-5, integrator="implicit"))):
+        checks.that(f"facets, {name}", abs(found / expected - 1) < 5e-3, (found, expected))
+
+
 def carried(checks):
     """Two boxes press on a disc, then go sideways together: where friction holds, the disc goes with them."""
     way = 0.1e-3
@@ -121,4 +152,4 @@ def refusals(checks):
         O.engines[-1].theta = 0.3
 
 
-run_tests(squeeze, compaction, resumed, auto, carried, refusals)
+run_tests(squeeze, compaction, resumed, auto, slit, carried, refusals)

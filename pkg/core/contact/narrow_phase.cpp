@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/narrow_phase.hpp"
 
-#include "contact/polyline.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +11,7 @@ namespace {
     constexpr double skin = 0.1;
     /// A gap along the interpolated normal shrinks by little more than the bodies move.
     constexpr double safe_share = 0.8;
-    /// How far ends of lines may enter: where lines join, points on them hold the body, not the joint [size of the other body].
-    constexpr double end_depth = 1e-3;
+    constexpr double end_depth = 1e-3; ///< of lines [size of the other body]
 
     /// Forces of the last step go to the same points; both lists are in the same order.
     template <int Dim> void carry_forces(const std::vector<ContactPoint<Dim>>& old, std::vector<ContactPoint<Dim>>& fresh)
@@ -48,6 +45,24 @@ namespace {
 
 } // namespace
 
+template <int Dim> Projection stand(const Surface<Dim>& mine, int point, const Surface<Dim>& other, int face, double place)
+{
+    using Kind = typename Surface<Dim>::Kind;
+    const Vec<Dim> x = mine.x(point);
+    if (other.kind == Kind::line) return against_chord(other, x, 0);
+    const Projection at = project(other, x, face, place);
+    if (mine.kind != Kind::line) return at;
+    Projection straight = against_chord(other, x, at.segment); // outlines bulge over the joints of lines, chords do not
+    straight.t = at.t;
+    return straight;
+}
+
+template <int Dim> Bend bend_below(const Surface<Dim>& mine, const Surface<Dim>& other, int face, double place)
+{
+    if (mine.kind != Surface<Dim>::Kind::line) return bend_at(other, face, place);
+    return { { 0, -1, 1, 0 }, (other.x((face + 1) % other.count) - other.x(face)).norm(), 0 };
+}
+
 template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt)
 {
     return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size + a.ahead;
@@ -56,6 +71,7 @@ template <int Dim> double reach(const Surface<Dim>& a, double other_speed, doubl
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller)
 {
     constexpr double share = 0.25; // of the distance of the smaller body's points
+    if (larger.kind == Surface<Dim>::Kind::line) return end_depth * smaller.size;
     return larger.corner[point] ? 0 : share * 2 * M_PI * smaller.size / smaller.count;
 }
 
@@ -76,8 +92,7 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         if (of_larger && mine.mobility == 0 && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
-        const Projection at = other.kind == Surface<Dim>::Kind::line ? against_chord(other, x, 0)
-                                                                     : project(other, x, nearest_segment(other, x), 0.5);
+        const Projection at = stand(mine, p, other, nearest_segment(other, x), 0.5);
         if (at.gap + (of_larger ? allowance(mine, p, other) : 0) < margin) found.push_back({ p, at.segment, at.t, 0 });
     }
 }
@@ -136,22 +151,14 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
                 memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
                 continue;
             }
-            const Vec<Dim> x = mine.x(candidate.point);
-            const bool on_line = other.kind == Surface<Dim>::Kind::line;
-            Projection at = on_line ? against_chord(other, x, 0) : project(other, x, candidate.face, candidate.place);
-            double let = mine_small ? 0 : allowance(mine, candidate.point, other);
-            if (mine.kind == Surface<Dim>::Kind::line) { // outlines bulge over the joints of lines, chords do not
-                const Projection straight = against_chord(other, x, at.segment);
-                let = straight.gap - at.gap + end_depth * other.size;
-                at.normal = straight.normal;
-                at.weight = straight.weight;
-            }
+            Projection at = stand(mine, candidate.point, other, candidate.face, candidate.place);
+            const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
             at.gap += let;
             candidate.face = at.segment;
             candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
             memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
-            if (at.gap >= near || (on_line && !faces(other, at))) continue;
+            if (at.gap >= near || (other.kind == Surface<Dim>::Kind::line && !faces(other, at))) continue;
             fresh.push_back({ candidate.point, on_second, at.segment, at.vertex, at.weight, at.normal, at.gap, let });
         }
     }
@@ -212,6 +219,8 @@ template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int 
 }
 
 template double reach<2>(const Surface<2>&, double, double);
+template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, double);
+template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 template double bulge<2>(const Surface<2>&);
 template double overlap<2>(const Surface<2>&, const Surface<2>&);

@@ -5,7 +5,7 @@
 //   PlaneContacts    a grain against the half-space behind a rigid plane
 #pragma once
 
-#include "contact/surface.hpp"
+#include "contact/polyline.hpp"
 
 #include <array>
 
@@ -27,8 +27,15 @@ template <int Dim> struct ContactPoint {
 /// How far ahead contacts are looked for: [m], beyond what two bodies can close in one step.
 template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt);
 
+/// Where a surface point of `mine` stands against another body. The foot is sought from `place` on segment `face` on; a line
+/// shows its first segment, drawn out at both ends, and the points of lines meet chords.
+template <int Dim> Projection stand(const Surface<Dim>& mine, int point, const Surface<Dim>& other, int face, double place);
+/// How an outline goes on at a foot of stand().
+template <int Dim> Bend bend_below(const Surface<Dim>& mine, const Surface<Dim>& other, int face, double place);
+
 /// How far a point of the larger body may enter the smaller one between the contact points there [m]: a quarter of their
-/// distance, several times what two touching arcs need. More would be a leak. Corners: 0.
+/// distance, several times what two touching arcs need. More would be a leak. Corners: 0, but next to nothing for those of lines:
+/// where lines join, points on them hold the body, not the joint.
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller);
 
 /// How far the outline may reach out of the box of its points [m]. The middle of a segment of length s that turns by an angle is
@@ -90,6 +97,8 @@ private:
     bool near_ = false;
 };
 
+extern template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, double);
+extern template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 extern template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 extern template double bulge<2>(const Surface<2>&);
 extern template double overlap<2>(const Surface<2>&, const Surface<2>&);

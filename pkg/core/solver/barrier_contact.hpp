@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/polyline.hpp"
+#include "contact/narrow_phase.hpp"
 #include "solver/contact_problem.hpp"
 
 namespace softgrain {
@@ -38,10 +38,10 @@ template <int Dim> struct BarrierContact {
         static_assert(Dim == 2, "one tangent, in the plane");
         return Vec<Dim>(-normal.y(), normal.x());
     }
-    /// Foot, normal and gap of the point at x on the other body as it stands; the foot is sought from the last one on.
-    void locate(const Vec<Dim>& x, const Surface<Dim>& other_body)
+    /// Foot, normal and gap of the point on the other body as both stand; the foot is sought from the last one on.
+    void locate(const Surface<Dim>& point_body, const Surface<Dim>& face_body)
     {
-        const Projection at = project(other_body, x, face, place);
+        const Projection at = stand(point_body, point, face_body, face, place);
         face = at.segment;
         place = at.t;
         vertex = at.vertex;

@@ -16,7 +16,8 @@ void ContactTurning<Dim>::look(const std::vector<BarrierContact<Dim>>& contacts,
         if (contact.other < 0 || contact.force < least * largest) continue;
         const Surface<Dim>& other = *bodies[size_t(contact.other)];
         const bool at_corner = contact.weight[1] == 1 && other.corner[size_t(contact.vertex[1])];
-        if (!at_corner) faces_.push_back({ c, bend_at(other, contact.face, contact.place) });
+        if (at_corner) continue;
+        faces_.push_back({ c, bend_below(*bodies[size_t(contact.body)], other, contact.face, contact.place) });
     }
 }
 

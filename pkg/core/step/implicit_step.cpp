@@ -37,7 +37,7 @@ template <int Dim> void ImplicitStep<Dim>::locate()
         if (contact.other < 0)
             contact.gap = contact.normal.dot(body.x(contact.point)) - contact.plane;
         else
-            contact.locate(body.x(contact.point), *scene_->bodies[contact.other]);
+            contact.locate(body, *scene_->bodies[contact.other]);
         if (contact.friction > 0) contact.slide = (difference(contact, way_) - contact.drive).dot(contact.tangent());
     }
 }

@@ -37,7 +37,7 @@ struct Pair {
     void locate()
     {
         for (auto& contact : contacts)
-            contact.locate(point.x(contact.point), face);
+            contact.locate(point, face);
     }
     void move(const SurfaceField& way, double share)
     {
