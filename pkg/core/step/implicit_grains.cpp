@@ -150,6 +150,14 @@ template <int Dim> typename ImplicitGrains<Dim>::Place ImplicitGrains<Dim>::eval
     return place;
 }
 
+template <int Dim> int ImplicitGrains<Dim>::turned_inside_out() const
+{
+    for (const Part& part : parts_)
+        for (size_t lane = 0; lane < part.index.size(); ++lane)
+            if (!(part.per_lane[size_t(part.lanes()) + lane] > 0)) return int(part.index[lane]);
+    return -1;
+}
+
 template <int Dim> void ImplicitGrains<Dim>::settle()
 {
     each_part([&](Part& part) { part.base = part.place; });

@@ -43,6 +43,8 @@ public:
         bool sound;       ///< J > 0 everywhere, all numbers finite
     };
     Place evaluate(double share);
+    /// A grain with a point of J <= 0 or no number at the last place evaluated; -1: none.
+    int turned_inside_out() const;
     /// Makes the last place evaluated the base.
     void settle();
     /// Quasi-static: holds the grains at the last place evaluated from now on.
