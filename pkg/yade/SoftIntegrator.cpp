@@ -14,6 +14,7 @@
 #include <core/InteractionLoop.hpp>
 #include <core/Omega.hpp>
 
+#include <set>
 #include <utility>
 
 namespace yade {
@@ -168,6 +169,7 @@ void SoftIntegrator::adopt()
 {
     if (knowsAllBodies()) return;
     requireSoftEngines(*scene);
+    takeOver();
     assembly_.reset();
     soft_ = {};
     known_.clear();
@@ -266,6 +268,35 @@ void SoftIntegrator::refuseStrangers() const
             + other->shape->getClassName()
             + ", and no functor knows their contact; soft grains touch soft grains, walls, boxes, spheres and facets.");
     }
+}
+
+/// Interactions keep the functors of the engines that made them, and those of engines that have been replaced hand pairs over
+/// to nobody: the present ones take over.
+void SoftIntegrator::takeOver()
+{
+    std::vector<InteractionLoop*> loops;
+    std::set<LawFunctor*> laws;
+    for (const auto& engine : scene->engines)
+        if (auto* loop = dynamic_cast<InteractionLoop*>(engine.get())) {
+            loops.push_back(loop);
+            for (const auto& functor : loop->lawDispatcher->functors)
+                laws.insert(functor.get());
+        }
+    bool taken = false;
+    for (const auto& interaction : *scene->interactions) {
+        auto& cache = interaction->functorCache;
+        if (!cache.constLaw || laws.count(cache.constLaw.get())) continue;
+        cache.geomExists = true;
+        cache.geom.reset();
+        cache.phys.reset();
+        cache.constLaw.reset();
+        taken = true;
+    }
+    if (!taken) return;
+    touchingPairs(); // of interactions that are new: all come again
+    for (InteractionLoop* loop : loops)
+        loop->action();
+    Problems::raise();
 }
 
 /// What the Law2 functors were called for in this step.

@@ -95,6 +95,7 @@ protected:
     virtual void requireStableStep();
     void refuseStrangersNowAndThen();
     std::vector<TouchingPair> touchingPairs() const;
+    void takeOver();
     virtual void trackEnergies();
     /// How long the velocities' time is before that of the displacements [s].
     virtual Real velocitiesBehind() const { return scene->dt / 2; }

@@ -135,6 +135,27 @@ def carried(checks):
         checks.that(f"carried along, {'quasi-static' if quasistatic else 'implicit'}", abs(went - 1) < 5e-3, went)
 
 
+def replaced(checks):
+    """Engines that replace others go on with the contacts that are there: a squeezed disc keeps its force."""
+    O.reset()
+    soft = O.materials.append(NeoHookeanMat(lambda_=61e6, mu=1.26e6, density=1000))
+    stone = O.materials.append(FrictMat(frictionAngle=0))
+    O.bodies.append(softDisc((0, 0), 1e-3, soft, 60))
+    O.bodies.append([wall(side * 1e-3, axis=1, sense=-side, material=stone) for side in (-1, 1)])
+    quasistatic = {"dt": 1e-5, "integrator": "implicit", "quasistatic": True}
+    O.engines = softEngines(**quasistatic)
+    O.bodies[2].state.vel = (0, -1, 0)
+    O.run(20, True)
+    O.bodies[2].state.vel = (0, 0, 0)
+    O.step()
+    expected = O.forces.f(2)[1]
+    for name, words in ("explicit", {}), ("implicit", {"dt": 1e-6, "integrator": "implicit"}), ("quasi-static", quasistatic):
+        O.engines = softEngines(**words)
+        O.run(3, True)
+        found = O.forces.f(2)[1]
+        checks.that(f"taken over by {name} steps", abs(found / expected - 1) < 0.01, (found, expected))
+
+
 def refusals(checks):
     O.reset()
     soft = O.materials.append(NeoHookeanMat(lambda_=61e6, mu=1.26e6, density=1000))
@@ -152,4 +173,4 @@ def refusals(checks):
         O.engines[-1].theta = 0.3
 
 
-run_tests(squeeze, compaction, resumed, auto, slit, carried, refusals)
+run_tests(squeeze, compaction, resumed, auto, slit, carried, replaced, refusals)
