@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/rigid_body.hpp"
 #include "grid/surface_operator.hpp"
 
 #include <vector>
@@ -31,6 +32,7 @@ template <int Dim> struct Surface {
     double mobility = 0;                                     ///< 1 / (density radius^Dim) [1/kg]; 0: not moved by impulses
     Kind kind = Kind::polygon;                               ///< of a rigid body
     const SurfaceOperator<Dim>* response = nullptr;          ///< its Delassus operator; none for rigid bodies
+    RigidBody<Dim>* rigid = nullptr;                         ///< that shows it, if impulses move that body; mobility 0
 
     void resize(int points)
     {

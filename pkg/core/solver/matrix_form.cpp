@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "solver/matrix_form.hpp"
 
+#include <map>
+
 namespace softgrain {
 namespace {
 
@@ -26,7 +28,8 @@ namespace {
 
 } // namespace
 
-// W = H D H^T: H from the velocities of surface points to relative velocities, D the Delassus operators of the surfaces.
+// W = H D H^T + G M G^T: H from the velocities of surface points to relative velocities, D the Delassus operators of the
+// surfaces, G from the twists of rigid bodies, M their mobilities.
 template <int Dim> MatrixForm<Dim> matrix_form(const ContactProblem<Dim>& problem)
 {
     const int contacts = int(problem.contacts.size());
@@ -46,12 +49,22 @@ template <int Dim> MatrixForm<Dim> matrix_form(const ContactProblem<Dim>& proble
     for (Eigen::VectorXd* vector : { &form.q, &form.r, &form.u })
         vector->resize(Dim * contacts);
     std::vector<Mat<Dim>> frames;
+    using Lever = Eigen::Matrix<double, Dim, RigidBody<Dim>::twists>;
+    std::map<const RigidBody<Dim>*, std::map<int, Lever>> levers; // of each contact, in its frame
     for (int c = 0; c < contacts; ++c) {
         const Contact<Dim>& contact = problem.contacts[c];
         shares.emplace_back(c, first[contact.body] + contact.point, 1);
         for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
             shares.emplace_back(c, first[contact.other] + contact.vertex[k], -contact.weight[k]);
         frames.push_back(frame<Dim>(contact.normal));
+        const auto add_lever = [&](const Surface<Dim>& body, int p, double share) {
+            if (!body.rigid) return;
+            const auto lever = levers[body.rigid].try_emplace(c, Lever::Zero()).first;
+            lever->second += share * frames[c] * body.rigid->lever(body.x(p));
+        };
+        add_lever(*problem.bodies[contact.body], contact.point, 1);
+        for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
+            add_lever(*problem.bodies[contact.other], contact.vertex[k], -contact.weight[k]);
         const Vec<Dim> u = problem.relative(contact, &Surface<Dim>::velocity) + contact.gap_speed * contact.normal;
         form.q.template segment<Dim>(Dim * c) = frames[c] * contact.free;
         form.r.template segment<Dim>(Dim * c) = frames[c] * contact.impulse;
@@ -68,6 +81,14 @@ template <int Dim> MatrixForm<Dim> matrix_form(const ContactProblem<Dim>& proble
                 for (int j = 0; j < Dim; ++j)
                     entries.emplace_back(Dim * row + i, Dim * int(entry.col()) + j, block(i, j));
         }
+    for (const auto& [body, of_contact] : levers)
+        for (const auto& [row, left] : of_contact)
+            for (const auto& [column, right] : of_contact) {
+                const Mat<Dim> block = left * body->mobility * right.transpose();
+                for (int i = 0; i < Dim; ++i)
+                    for (int j = 0; j < Dim; ++j)
+                        entries.emplace_back(Dim * row + i, Dim * column + j, block(i, j));
+            }
     form.W = assembled(Dim * contacts, Dim * contacts, entries);
     return form;
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "solver/nlgs.hpp"
 
+#include "solver/rigid_balance.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <typeinfo>
 
 namespace softgrain {
@@ -60,11 +63,13 @@ public:
         problem_ = &problem;
         bodies_.assign(problem.bodies.size(), {});
         velocity_.clear();
+        rigid_ = false;
         for (const auto& contact : problem.contacts) {
             take(contact.body);
             if (contact.other >= 0) take(contact.other);
         }
         divide();
+        if (rigid_) gather_rigid();
     }
 
     /// Phases of a sweep: inside strips, between even and next, between odd and next, all others.
@@ -84,9 +89,17 @@ public:
     /// Starts from the impulses of the contacts of a group.
     void start(int phase, int which)
     {
-        const Group& group = groups_[phase_[phase] + which];
+        Group& group = groups_[phase_[phase] + which];
         for (const Local<Dim>& local : group.locals)
             if (local.impulse != Vec<Dim>::Zero()) strike(group, local, local.impulse);
+        for (Rigid& rigid : group.rigid) {
+            for (auto& [of, index, lever] : rigid.contacts) {
+                Local<Dim>& local = groups_[of].locals[index];
+                local.offset += lever * rigid.body->twist;
+                local.contact->free += lever * rigid.body->twist;
+            }
+            settle(group, rigid);
+        }
     }
 
     /// On the contacts of two bodies before those of the next.
@@ -103,6 +116,8 @@ public:
         group.change = group.size = 0;
         for (const Block& block : group.blocks)
             solve(group, block, effort);
+        for (Rigid& rigid : group.rigid)
+            settle(group, rigid);
     }
 
     /// The last sweep changed the impulses by less than this, relative to their size.
@@ -123,10 +138,24 @@ public:
                 local.contact->impulse = local.impulse;
                 local.contact->inertia = local.inertia;
             }
+        for (const Group& group : groups_)
+            for (const Rigid& rigid : group.rigid) {
+                rigid.body->twist += rigid.gain;
+                for (const auto& [of, index, lever] : rigid.contacts) {
+                    Contact<Dim>& contact = *groups_[of].locals[index].contact;
+                    const auto along = (contact.normal.transpose() * lever).eval();
+                    contact.inertia = 1 / (1 / contact.inertia + along.dot(along * rigid.body->mobility));
+                }
+            }
         for (size_t b = 0; b < bodies_.size(); ++b) {
             if (bodies_[b].first < 0) continue;
+            Surface<Dim>& surface = *problem_->bodies[b];
             const double* from = velocity_.data() + Dim * bodies_[b].first;
-            std::copy(from, from + problem_->bodies[b]->velocity.size(), problem_->bodies[b]->velocity.begin());
+            if (!surface.rigid)
+                std::copy(from, from + surface.velocity.size(), surface.velocity.begin());
+            else
+                for (int p = 0; p < surface.count; ++p)
+                    surface.v(p) = surface.rigid->lever(surface.x(p)) * surface.rigid->twist;
         }
     }
 
@@ -141,10 +170,23 @@ private:
         size_t first, count; ///< in Group::locals
         size_t delassus;     ///< of the block, count x count, in Group::delassus
     };
+    /// A rigid body that impulses move. In sweeps over its contacts it is driven by its twist, which is renewed when they
+    /// have been treated: velocities stand at 0 on its surfaces, and in the offsets of the contacts.
+    struct Rigid {
+        struct Place {
+            int group;
+            size_t index;                                             ///< in Group::locals
+            Eigen::Matrix<double, Dim, RigidBody<Dim>::twists> lever; ///< see RigidContact
+        };
+        RigidBody<Dim>* body;
+        typename RigidBody<Dim>::Twist gain; ///< by the impulses
+        std::vector<Place> contacts;
+    };
     /// What one thread treats in a phase.
     struct Group {
         std::vector<Local<Dim>> locals;
         std::vector<Block> blocks;
+        std::vector<Rigid> rigid;      ///< whose contacts are all here; or, of the last group, in several
         std::vector<double> responses; ///< changes of velocities by unit impulses, at the columns of the face's rows [1/kg]
         std::vector<double> delassus;
         std::vector<Vec<Dim>> velocity, before; ///< relative velocities, and impulses before, of the block in hand
@@ -153,6 +195,7 @@ private:
         {
             locals.clear();
             blocks.clear();
+            rigid.clear();
             responses.clear();
             delassus.clear();
         }
@@ -165,6 +208,9 @@ private:
         const Surface<Dim>& surface = *problem_->bodies[index];
         body = { int(velocity_.size()) / Dim, surface.mobility, surface.response };
         velocity_.insert(velocity_.end(), surface.velocity.begin(), surface.velocity.end());
+        if (!surface.rigid) return;
+        rigid_ = true;
+        std::fill(velocity_.begin() + Dim * body.first, velocity_.end(), 0);
     }
 
     /// Sorts the contacts into groups, and in each by the two bodies they belong to: neighbours in the problem.
@@ -197,6 +243,32 @@ private:
             last = bodies;
             ++group.blocks.back().count;
             group.locals.emplace_back().contact = &contact;
+        }
+    }
+
+    /// Who has contacts with which rigid body. These are inside strips, as the soft body's are with what does not move.
+    void gather_rigid()
+    {
+        std::map<const RigidBody<Dim>*, size_t> places;
+        std::vector<Rigid> all;
+        for (int g = 0; g < phase_[1]; ++g)
+            for (size_t i = 0; i < groups_[g].locals.size(); ++i) {
+                const Contact<Dim>& contact = *groups_[g].locals[i].contact;
+                const bool of_point = problem_->bodies[contact.body]->rigid;
+                if (!of_point && contact.other < 0) continue;
+                const Surface<Dim>& surface = *problem_->bodies[of_point ? contact.body : contact.other];
+                if (!surface.rigid) continue;
+                const auto [at, added] = places.try_emplace(surface.rigid, all.size());
+                if (added) all.push_back({ surface.rigid, RigidBody<Dim>::Twist::Zero(), {} });
+                Vec<Dim> foot = Vec<Dim>::Zero();
+                for (int k = 0; !of_point && k < face_vertices<Dim>; ++k)
+                    foot += contact.weight[k] * surface.x(contact.vertex[k]);
+                if (of_point) foot = surface.x(contact.point);
+                all[at->second].contacts.push_back({ g, i, (of_point ? 1 : -1) * surface.rigid->lever(foot) });
+            }
+        for (Rigid& rigid : all) {
+            const int first = rigid.contacts.front().group, last = rigid.contacts.back().group;
+            groups_[first == last ? first : phase_[phases] - 1].rigid.push_back(std::move(rigid));
         }
     }
 
@@ -330,6 +402,30 @@ private:
         }
     }
 
+    /// Brings the twist of a rigid body and the impulses of its contacts together.
+    void settle(Group& group, Rigid& rigid)
+    {
+        thread_local std::vector<RigidContact<Dim>> contacts;
+        contacts.clear();
+        for (const auto& [of, index, lever] : rigid.contacts) {
+            const Local<Dim>& local = groups_[of].locals[index];
+            contacts.push_back(
+                { local.law, local.normal, local.friction, local.inertia, lever, approach(local), local.impulse });
+        }
+        const auto before = rigid.gain;
+        balance(*rigid.body, rigid.gain, contacts);
+        for (size_t i = 0; i < contacts.size(); ++i) {
+            const auto& [of, index, lever] = rigid.contacts[i];
+            Local<Dim>& local = groups_[of].locals[index];
+            local.offset += lever * (rigid.gain - before);
+            const Vec<Dim> step = contacts[i].impulse - local.impulse;
+            if (step == Vec<Dim>::Zero()) continue;
+            group.change += step.squaredNorm();
+            local.impulse = contacts[i].impulse;
+            strike(groups_[of], local, step);
+        }
+    }
+
     void strike(const Group& group, const Local<Dim>& local, const Vec<Dim>& impulse)
     {
         double* const v = velocity_.data();
@@ -346,6 +442,7 @@ private:
     ContactProblem<Dim>* problem_ = nullptr;
     std::vector<Body> bodies_;
     std::vector<double> velocity_;
+    bool rigid_;                        ///< some bodies with contacts are rigid and moved by impulses
     std::vector<Group> groups_;         ///< phase after phase
     std::array<int, phases + 1> phase_; ///< first group of each phase
 };

@@ -406,6 +406,11 @@ template <int Dim> void Assembly<Dim>::report_unsound(const std::vector<char>& s
 
 template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& problem, EnergyBalance& balance)
 {
+    const auto velocity = [](const Surface<Dim>& body, int p) { // of the middle, as driven bodies have it anyway
+        const auto of
+            = [p](const std::vector<double>& field) { return Eigen::Map<const Vec<Dim>>(&field[size_t(Dim) * p]); };
+        return Vec<Dim>((of(body.velocity_before) + of(body.velocity)) / 2);
+    };
     for (const auto& contact : problem.contacts) {
         if (contact.impulse == Vec<Dim>::Zero()) continue;
         const Vec<Dim> u = (problem.relative(contact, &Surface<Dim>::velocity)
@@ -416,11 +421,11 @@ template <int Dim> void Assembly<Dim>::account(const ContactProblem<Dim>& proble
         if (contact.friction > 0) balance.friction -= contact.impulse.dot(u) - normal; // else but round-off
         if (contact.other < 0)
             balance.external_work += contact.impulse.dot(contact.drive);
-        else if (Surface<Dim>& other = *problem.bodies[contact.other]; other.mobility == 0)
+        else if (const Surface<Dim>& other = *problem.bodies[contact.other]; other.mobility == 0)
             for (int k = 0; k < face_vertices<Dim>; ++k)
-                balance.external_work += contact.weight[k] * contact.impulse.dot(other.v(contact.vertex[k]));
-        if (Surface<Dim>& body = *problem.bodies[contact.body]; body.mobility == 0)
-            balance.external_work -= contact.impulse.dot(body.v(contact.point));
+                balance.external_work += contact.weight[k] * contact.impulse.dot(velocity(other, contact.vertex[k]));
+        if (const Surface<Dim>& body = *problem.bodies[contact.body]; body.mobility == 0)
+            balance.external_work -= contact.impulse.dot(velocity(body, contact.point));
     }
 }
 

@@ -18,7 +18,7 @@ namespace softgrain {
 
 /// Energies since the start [J] (J/m in 2D). Elastic and kinetic stand with the grains.
 struct EnergyBalance {
-    double external_work = 0;       ///< of driven bodies and body forces on the grains
+    double external_work = 0;       ///< of rigid bodies and body forces on the grains
     double friction = 0;            ///< dissipated by sliding
     double contact_dissipation = 0; ///< dissipated by normal impulses (inelastic impact of surface points)
 };
