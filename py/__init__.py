@@ -2,7 +2,7 @@
 """Soft grains for YADE: Material Point Method inside the grains, Contact Dynamics between them.
 
 A scene says `from softgrain import *` and has the classes of the plugin (NeoHookeanMat, SoftGrain, SoftIntegrator...),
-the builders (softDisc, softPolygon, softCloud, softBox, softEngines), and the modules arrays (what a grain holds, as
+the builders (softDisc, softPolygon, softCloud, softBox, rigidDisc, softEngines), and the modules arrays (what a grain holds, as
 numpy arrays), measures (of a running scene) and fclib (its contact problems, for other solvers)."""
 from . import _guard
 _guard.check()
@@ -10,7 +10,7 @@ from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
 import yade.wrapper  # noqa: E402
 
 from . import arrays, fclib, measures  # noqa: E402
-from .builders import discCloud, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
+from .builders import discCloud, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
 from .checks import InputError  # noqa: E402
 
 __version__ = "0.1.0"
@@ -31,5 +31,5 @@ def _renew_dispatchers():
 
 _renew_dispatchers()
 
-__all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "softBox", "softCloud",
-           "softDisc", "softEngines", "softPolygon"]
+__all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "rigidDisc", "softBox",
+           "softCloud", "softDisc", "softEngines", "softPolygon"]

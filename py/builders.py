@@ -70,6 +70,32 @@ def softPolygon(vertices, material=-1, points=None, color=None, velocity=(0, 0, 
                  color, velocity, spin, accuracy)
 
 
+def rigidDisc(center, radius, material=-1, color=None, velocity=(0, 0, 0), spin=0.0):
+    """Body of one rigid disc that moves freely in the xy-plane: a YADE Sphere with the mass [kg/m] and the moment of inertia
+    [kg m] of a disc, per metre of thickness as those of soft grains (YADE's sphere() has those of a ball).
+
+    center    centre [m], in the plane of the soft grains
+    radius    radius [m]
+    material  a FrictMat, that of YADE by default
+    velocity  initial velocity [m/s]; spin: initial angular velocity about z [rad/s]
+    Raises InputError, one sentence, on a value that makes no sense.
+    """
+    from yade.utils import sphere
+
+    center = position("rigidDisc: center", center)
+    name = f"rigidDisc at {_shown(center)}"
+    radius, spin = positive(f"{name}: radius", radius, "m"), number(f"{name}: spin", spin, "rad/s")
+    velocity = in_plane(f"{name}: velocity", velocity, "m/s")
+    if material != -1 or len(O.materials):      # else YADE's default material
+        material = _material(name, material, wrapper.FrictMat, "FrictMat")
+    body = sphere(center, radius, material=material, color=None if color is None else _colour(name, color))
+    state = body.state
+    state.mass = math.pi * radius**2 * body.material.density
+    state.inertia = Vector3(1, 1, 1) * (state.mass * radius**2 / 2)
+    state.vel, state.angVel, state.blockedDOFs = Vector3(*velocity), Vector3(0, 0, spin), "zXY"
+    return body
+
+
 def softCloud(width, count, diameters=(1.4e-3, 2.4e-3), solidFraction=0.65, material=-1, points=None, seed=1, **shape):
     """Loose cloud of soft discs that do not touch, in the box [0, width] x [0, height].
 
@@ -133,7 +159,7 @@ def softBox(width, height, material=-1):
 
 def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSweeps=1000, verletDist=None,
                 friction=None, wallFriction=None, more=(), accuracy=None, integrator="explicit", theta=1.0,
-                quasistatic=False):
+                quasistatic=False, functors=()):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
     gravity       [m/s²]
@@ -145,6 +171,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     wallFriction  the same between grains and other bodies
     more          engines to append (recorders, PyRunners)
     accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
+    functors      of rigid bodies among each other (Ig2, Ip2 and Law2, of YADE's laws); the time step has to suit them too
     integrator    "explicit" or "implicit"; theta, quasistatic: see SoftImplicitIntegrator
     Raises InputError, one sentence, on a value that makes no sense.
     """
@@ -182,6 +209,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         verletDist = not_negative("softEngines: verletDist", verletDist, "m")
     if isinstance(more, wrapper.Engine) or not isinstance(more, (list, tuple)):
         raise InputError(f"softEngines: more is a {type(more).__name__}: give a list of engines.")
+    geometries, physics, laws = _sorted(functors)
     if implicit:
         mover = wrapper.SoftImplicitIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, theta=theta,
                                                quasistatic=bool(quasistatic))
@@ -197,10 +225,10 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         wrapper.InteractionLoop(
             [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),
              wrapper.Ig2_Box_SoftGrain_SoftGeom(), wrapper.Ig2_Sphere_SoftGrain_SoftGeom(),
-             wrapper.Ig2_Facet_SoftGrain_SoftGeom()],
+             wrapper.Ig2_Facet_SoftGrain_SoftGeom(), *geometries],
             [wrapper.Ip2_SoftMat_SoftMat_SoftPhys(**_friction("friction", friction)),
-             wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction))],
-            [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics()]),
+             wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction)), *physics],
+            [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics(), *laws]),
         wrapper.NewtonIntegrator(damping=0, gravity=Vector3(*gravity)),
         mover,
         *more,
@@ -213,6 +241,17 @@ def _friction(name, coefficient):
         return {}
     angle = math.atan(not_negative(f"softEngines: {name}", coefficient))
     return {"frictAngle": wrapper.MatchMaker(algo="val", val=angle)}
+
+
+def _sorted(functors):
+    """The lists of Ig2, Ip2 and Law2 functors among these."""
+    kinds = wrapper.IGeomFunctor, wrapper.IPhysFunctor, wrapper.LawFunctor
+    if not isinstance(functors, (list, tuple)):
+        raise InputError(f"softEngines: functors is a {type(functors).__name__}: give a list of Ig2, Ip2 and Law2 functors.")
+    for functor in functors:
+        if not isinstance(functor, kinds):
+            raise InputError(f"softEngines: functors holds a {type(functor).__name__}: give Ig2, Ip2 and Law2 functors.")
+    return [[functor for functor in functors if isinstance(functor, kind)] for kind in kinds]
 
 
 def _body(name, center, shape, material, points, angle, color, velocity, spin, accuracy):

@@ -2,6 +2,7 @@
 #include "Ig2_Wall_SoftGrain_SoftGeom.hpp"
 
 #include "Problems.hpp"
+#include "RigidOutline.hpp"
 #include "SoftGeom.hpp"
 #include "SoftState.hpp"
 
@@ -28,6 +29,8 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const shar
     geom.withPlane = true;
     geom.axis = wall.axis;
     geom.side = wall.sense != 0 ? wall.sense : grain.motion.position[wall.axis] >= state1.pos[wall.axis] ? 1 : -1;
+    if (state1.blockedDOFs != State::DOF_ALL)
+        RigidOutline { { Vector3r::Zero() } }.show(state1, scene->dt, geom.rigid); // for its velocity alone
     Problems::guard([&] {
         const double place = state1.pos[wall.axis], speed = std::abs(state1.vel[wall.axis]);
         const bool apart = geom.plane.apart(grain.surface, wall.axis, place, geom.side, speed, scene->dt);

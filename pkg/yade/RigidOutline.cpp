@@ -7,28 +7,25 @@
 
 namespace yade {
 
-namespace {
-    void put(const RigidOutline& outline, const State& body, Real dt, softgrain::Surface<2>& surface)
-    {
-        const int count = int(outline.arms.size());
-        if (surface.count != count) surface.resize(count);
-        using Kind = softgrain::Surface<2>::Kind;
-        surface.kind = outline.kind;
-        surface.size = outline.size;
-        surface.speed = 0;
-        for (int i = 0; i < count; ++i) {
-            const Vector3r velocity = body.vel + body.angVel.cross(outline.arms[i]);
-            for (int d = 0; d < 2; ++d) {
-                surface.position[2 * i + d] = body.pos[d] + outline.arms[i][d];
-                surface.velocity[2 * i + d] = surface.velocity_before[2 * i + d] = velocity[d];
-            }
-            surface.corner[i] = outline.kind != Kind::round;
-            surface.speed = std::max(surface.speed, velocity.norm());
+void RigidOutline::show(const State& body, Real dt, softgrain::Surface<2>& surface) const
+{
+    const int count = int(arms.size());
+    if (surface.count != count) surface.resize(count);
+    surface.kind = kind;
+    surface.size = size;
+    surface.speed = 0;
+    for (int i = 0; i < count; ++i) {
+        const Vector3r velocity = body.vel + body.angVel.cross(arms[i]);
+        for (int d = 0; d < 2; ++d) {
+            surface.position[2 * i + d] = body.pos[d] + arms[i][d];
+            surface.velocity[2 * i + d] = surface.velocity_before[2 * i + d] = velocity[d];
         }
-        surface.travel += dt * surface.speed;
-        surface.bound();
+        surface.corner[i] = kind != softgrain::Surface<2>::Kind::round;
+        surface.speed = std::max(surface.speed, velocity.norm());
     }
-} // namespace
+    surface.travel += dt * surface.speed;
+    surface.bound();
+}
 
 bool RigidOutline::meet(const State& body, const State& state, const shared_ptr<Interaction>& interaction, Real dt) const
 {
@@ -40,7 +37,7 @@ bool RigidOutline::meet(const State& body, const State& state, const shared_ptr<
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     const auto& grain = static_cast<const SoftState&>(state);
     Problems::guard([&] {
-        put(*this, body, dt, geom.rigid);
+        show(body, dt, geom.rigid);
         if (!geom.pair.apart(geom.rigid, grain.grain.surface, dt)) geom.pair.update(geom.rigid, grain.surface(), dt);
     });
     return interaction->isReal() || !geom.pair.points.empty();

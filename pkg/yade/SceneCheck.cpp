@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "SceneCheck.hpp"
 
+#include "FreeBodies.hpp"
 #include "SoftIntegrator.hpp"
 #include "SoftMat.hpp"
 
@@ -42,6 +43,7 @@ void requireSoftEngines(const Scene& scene)
 {
     std::set<std::string> needed;
     std::vector<std::string> walls; // what is wrong with them
+    std::string free, unmoved;      // a rigid body that is free to move; and that no engine moves
     bool soft = false;
     for (const auto& body : *scene.bodies) {
         if (softStateOf(*body)) {
@@ -55,6 +57,7 @@ void requireSoftEngines(const Scene& scene)
             walls.push_back("body #" + std::to_string(body->id) + ", a " + kind
                             + (body->material ? " of " + body->material->getClassName() : " without material")
                             + ", has no friction with soft grains; give it a FrictMat.");
+        if ((wall || shown) && FreeBodies::mover(scene, body)) free = "body #" + std::to_string(body->id) + ", a " + kind;
         if (wall && wall->axis < 2) needed.insert("Ig2_Wall_SoftGrain_SoftGeom");
         if (shown) needed.insert("Ig2_" + kind + "_SoftGrain_SoftGeom");
         if ((wall || shown) && !dynamic_cast<const SoftMat*>(body->material.get()))
@@ -68,13 +71,15 @@ void requireSoftEngines(const Scene& scene)
         { "Ig2_SoftGrain_SoftGrain_SoftGeom", "Ip2_SoftMat_SoftMat_SoftPhys", "Law2_SoftGeom_SoftPhys_ContactDynamics" });
 
     int integrators = 0, loops = 0;
-    bool inOrder = true;
+    bool inOrder = true, moved = false;
     for (const auto& engine : scene._nextEngines.empty() ? scene.engines : scene._nextEngines) {
         if (engine->dead) continue;
         if (dynamic_cast<const SoftIntegrator*>(engine.get())) {
             ++integrators;
             inOrder = loops > 0;
+            if (!moved && !free.empty()) unmoved = free;
         }
+        moved |= engine->getClassName() == "NewtonIntegrator";
         if (const auto* partial = dynamic_cast<const PartialEngine*>(engine.get())) {
             const std::string name = partial->getClassName();
             if (partial->getBaseClassName() == "KinematicEngine" || name == "CombinedKinematicEngine")
@@ -109,6 +114,12 @@ void requireSoftEngines(const Scene& scene)
     if (!inOrder)
         throw std::runtime_error(
             "SoftIntegrator stands before InteractionLoop in O.engines; put it behind, where contacts are known" + remedy);
+    if (!unmoved.empty())
+        throw std::runtime_error(
+            unmoved
+            + ", is free to move, but no NewtonIntegrator in O.engines moves it before SoftIntegrator; put "
+              "one there"
+            + remedy);
 }
 
 } // namespace yade

@@ -19,6 +19,7 @@ void SoftImplicitIntegrator::advance(double dt)
     loads_.gather(*scene, gravity, threads());
     refuseBlocked();
     pairs_.collect(*scene, touchingPairs());
+    refuseFree();
     if (fresh_) pairs_.refuseOverlaps();
     refuseStrangersNowAndThen();
     watch.stage(0);
@@ -97,6 +98,7 @@ void SoftImplicitIntegrator::search()
     }
     Problems::raise();
     pairs_.collect(*scene, touchingPairs(), true);
+    refuseFree();
 }
 
 /// NewtonIntegrator has moved the driven bodies already.
@@ -118,6 +120,16 @@ void SoftImplicitIntegrator::refuseBlocked() const
                                      + ": its blockedDOFs are not known to SoftImplicitIntegrator; free it, or take "
                                        "SoftIntegrator.");
     }
+}
+
+void SoftImplicitIntegrator::refuseFree()
+{
+    for (const auto& pair : pairs_.pairs())
+        if (pair.mover)
+            throw std::runtime_error("body #" + std::to_string(pair.mover->id) + ", a " + pair.mover->shape->getClassName()
+                                     + ", is free to move and touches soft grain #" + std::to_string(pair.id2)
+                                     + ", and SoftImplicitIntegrator knows fixed and driven rigid bodies alone; give it "
+                                       "state.blockedDOFs = 'xyzXYZ', or take SoftIntegrator.");
 }
 
 void SoftImplicitIntegrator::requireSaneAttributes() const

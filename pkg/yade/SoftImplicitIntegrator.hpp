@@ -58,6 +58,7 @@ private:
     void search();
     bool wallsAhead() const;
     void refuseBlocked() const;
+    void refuseFree();
     void take(double dt, double whole, const softgrain::ImplicitStep<2>::Outcome& outcome);
 
     std::unique_ptr<softgrain::ImplicitRun<2>> run_;

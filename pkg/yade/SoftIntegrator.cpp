@@ -37,6 +37,7 @@ void SoftIntegrator::action()
     requireSaneAttributes();
     adopt();
     if (soft_.states.empty()) return;
+    moved_ = scene->dt;
     requireStableStep();
     try {
         advance(scene->dt);
@@ -61,7 +62,7 @@ void SoftIntegrator::advance(double dt)
     assembly_->predict(kick, gravity.head<2>(), threads());
     watch.stage(0);
 
-    pairs_.pose(*scene, kick, recovery);
+    pairs_.pose(*scene, kick, recovery, moved_);
     if (fresh_)
         pairs_.refuseOverlaps();
     else
@@ -83,6 +84,7 @@ void SoftIntegrator::advance(double dt)
     pairs_.load();
     pairs_.add(kick, 1);
     pairs_.deliver(*scene);
+    pairs_.moveFree(*scene, dt);
     const auto hold = [&](softgrain::Grain<2>& grain) {
         loads_.hold(soft_.of(grain.id), kick);
         loads_.work(soft_.of(grain.id), kick);
@@ -253,11 +255,26 @@ void SoftIntegrator::refuseStrangersNowAndThen()
         refuseStrangers();
 }
 
+/// Two rigid bodies, one of them free to move, that would pass through each other.
+void SoftIntegrator::refuseStrangers(Body::id_t id1, Body::id_t id2) const
+{
+    if (soft_.of(id1) >= 0 || soft_.of(id2) >= 0) return;
+    const auto &one = (*scene->bodies)[id1], &two = (*scene->bodies)[id2];
+    if (!one || !two || !one->shape || !two->shape) return;
+    if (!FreeBodies::mover(*scene, one) && !FreeBodies::mover(*scene, two)) return;
+    throw std::runtime_error(
+        "bodies #" + std::to_string(id1) + " and #" + std::to_string(id2) + ", a " + one->shape->getClassName() + " and a "
+        + two->shape->getClassName()
+        + ", are rigid and free to move, and no functor knows their contact; give the functors of one of "
+          "YADE's laws, as in softEngines(functors=[...]), or take one of the two out by a mask.");
+}
+
 /// Bodies that no functor brings into contact with soft grains.
 void SoftIntegrator::refuseStrangers() const
 {
     for (const auto& interaction : *scene->interactions) {
         if (interaction->isReal() || interaction->functorCache.geomExists) continue;
+        refuseStrangers(interaction->id1, interaction->id2);
         const bool first = soft_.of(interaction->id1) >= 0;
         const Body::id_t grain = first ? interaction->id1 : interaction->id2,
                          otherId = first ? interaction->id2 : interaction->id1;

@@ -37,8 +37,9 @@ public:
             SoftIntegrator,
             GlobalEngine,
             "Advances all soft grains by one step: internal forces of the material points, contacts of all interactions by Contact Dynamics "
-            "(non-linear Gauss-Seidel), symplectic Euler. Stands behind InteractionLoop and NewtonIntegrator in O.engines; moves no other "
-            "bodies. Reactions on rigid bodies are in O.forces after the step. Forces and torques that other engines put on a grain through "
+            "(non-linear Gauss-Seidel), symplectic Euler. Stands behind InteractionLoop and NewtonIntegrator in O.engines. Rigid bodies "
+            "that are free take part in the contacts with their mass and inertia: where they touch grains, this engine corrects the motion "
+            "that NewtonIntegrator has given them. Reactions on rigid bodies are in O.forces after the step. Forces and torques that other engines put on a grain through "
             "O.forces act on it as a whole, spread over its mass as gravity is. With O.trackEnergy the sum of the soft entries of O.energy stays "
             "what it was; NewtonIntegrator counts the grains once more, as rigid bodies, in kinetic and gravWork. 2D: forces, energies and "
             "masses are per metre of thickness.",
@@ -54,7 +55,7 @@ public:
                     (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
                     (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
                     (Real, lastStep, 0, Attr::readonly, "Time step of the last step [s]; 0 before the first. Velocities belong to its middle."))(
-                    (Real, externalWork, 0, Attr::readonly, "Work on the grains since the start [J/m]: of driven bodies, gravity, O.forces, blocked degrees of freedom, and of velocities set by hand."))(
+                    (Real, externalWork, 0, Attr::readonly, "Work on the grains since the start [J/m]: of rigid bodies, gravity, O.forces, blocked degrees of freedom, and of velocities set by hand."))(
                     (Real, frictionDissipation, 0, Attr::readonly, "Energy dissipated by friction since the start [J/m]."))(
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
@@ -107,12 +108,14 @@ protected:
     SoftLoads loads_ { soft_ };
     SoftPairs pairs_ { soft_ };
     std::unique_ptr<softgrain::Assembly<2>> assembly_;
+    Real moved_ = 0;     ///< time step of NewtonIntegrator [s]
     bool fresh_ = false; ///< grains have come since the last step, or were moved by hand
 
 private:
     bool knowsAllBodies();
     void takeIn(const shared_ptr<Body>& body);
     void refuseStrangers() const;
+    void refuseStrangers(Body::id_t id1, Body::id_t id2) const;
     void refuseCollapse() const;
     void settle(int grain, double dt);
 

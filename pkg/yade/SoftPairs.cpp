@@ -50,10 +50,17 @@ void SoftPairs::wantSurfaces()
     }
 }
 
-void SoftPairs::pose(const Scene& scene, double kick, Real recovery)
+void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
 {
     deepest = 0;
-    for (const Pair& pair : pairs_)
+    free_.clear();
+    for (const Pair& pair : pairs_) {
+        if (pair.rigid && pair.body1 >= 0) {
+            auto& surface = pair.geom->rigid;
+            surface.rigid = pair.mover ? free_.take(pair.mover, *pair.second, moved) : nullptr;
+            for (int p = 0; surface.rigid && p < surface.count; ++p)
+                surface.v(p) = surface.rigid->lever(surface.x(p)) * surface.rigid->twist;
+        }
         for (const auto& point : pair.geom->points()) {
             deepest = std::max(deepest, -point.gap / pair.size());
             softgrain::Contact<2> contact;
@@ -62,30 +69,27 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery)
             contact.weight = point.weight;
             contact.gap_speed = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt;
             contact.drive = softgrain::Vec<2>::Zero();
-            if (pair.geom->withPlane) contact.drive = pair.rigid->vel.head<2>();
+            if (pair.body1 < 0) contact.drive = pair.rigid->vel.head<2>();
             contact.law = pair.phys->law;
             contact.impulse = kick * point.force;
             problem.contacts.push_back(contact);
         }
+    }
 }
 
 void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
 {
     const int one = soft_.of(touching.id1), two = soft_.of(touching.id2);
     if (two < 0) return; // erased since
-    Pair pair { std::move(touching), nullptr, soft_.states[two], nullptr, one, two, {} };
+    Pair pair { std::move(touching), nullptr, soft_.states[two], nullptr, nullptr, one, two, {} };
     if (one >= 0)
         pair.first = soft_.states[one];
     else {
         const auto& other = (*scene.bodies)[pair.id1];
         if (!other) return;
-        const auto& mover = other->isClumpMember() ? (*scene.bodies)[other->clumpId] : other;
-        if (mover->state->blockedDOFs != State::DOF_ALL)
-            throw std::runtime_error("body #" + std::to_string(pair.id1) + ", a " + other->shape->getClassName()
-                                     + ", is free to move and touches soft grain #" + std::to_string(pair.id2)
-                                     + "; only fixed or driven ones can (fixed=True, or blockedDOFs='xyzXYZ').");
         pair.rigid = other->state.get();
-        if (!pair.geom->withPlane) {
+        pair.mover = FreeBodies::mover(scene, other);
+        if (!pair.geom->withPlane || pair.mover) {
             pair.body1 = int(problem.bodies.size());
             problem.bodies.push_back(&pair.geom->rigid);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "FreeBodies.hpp"
 #include "SoftGeom.hpp"
 #include "SoftPhys.hpp"
 #include "SoftState.hpp"
@@ -39,6 +40,7 @@ public:
     {
         problem = {};
         pairs_.clear();
+        free_.clear();
     }
 
     softgrain::ContactProblem<2> problem;
@@ -48,7 +50,8 @@ public:
         SoftState* first; ///< null: a rigid body
         SoftState* second;
         const State* rigid;
-        int body1, body2; ///< places in the contact problem; body1 -1: a plane
+        shared_ptr<Body> mover; ///< of the rigid body, if impulses move it
+        int body1, body2;       ///< places in the contact problem; body1 -1: a plane that impulses do not move
         struct Sum {
             using Vec = softgrain::Vec<2>;
             Vec normal = Vec::Zero(), shear = Vec::Zero(); ///< forces on body id2 [N/m]
@@ -76,13 +79,16 @@ public:
     /// Steps are to renew the whole surfaces of the grains in pairs, and of no others.
     void wantSurfaces();
     /// Poses the problem of the contact points found at the start of a step. Shares of `recovery` of penetrations are taken back.
-    void pose(const Scene& scene, double kick, Real recovery);
+    /// NewtonIntegrator has taken a step of `moved`.
+    void pose(const Scene& scene, double kick, Real recovery, Real moved);
     /// Impulses to the surfaces.
     void load();
     /// Adds the forces of a step of length dt, times its share of the time, to the pairs; start values of the next step.
     void add(double dt, double share);
     /// Forces of the pairs to the interactions and to the rigid bodies.
     void deliver(Scene& scene);
+    /// Moves the free rigid bodies by a step of length dt, once the problem is solved.
+    void moveFree(Scene& scene, Real dt) { free_.move(scene, dt); }
     /// Throws when bodies got past each other by `most` radii: at the contact points; anywhere.
     void refuseLeaksAtPoints(Real most) const;
     void refuseLeaks(Real most) const;
@@ -97,6 +103,7 @@ private:
 
     const SoftBodies& soft_;
     std::vector<Pair> pairs_;
+    FreeBodies free_;
 };
 
 } // namespace yade

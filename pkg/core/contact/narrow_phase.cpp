@@ -212,7 +212,7 @@ template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int 
     if (closest < near)
         for (int p = 0; p < grain.count; ++p) {
             const double gap = side * (grain.x(p)[axis] - position);
-            if (gap < near) fresh.push_back({ p, false, 0, {}, {}, side * Vec<Dim>::Unit(axis), gap, 0 });
+            if (gap < near) fresh.push_back({ p, false, 0, {}, { 1 }, side * Vec<Dim>::Unit(axis), gap, 0 });
         }
     carry_forces(points, fresh);
     points.assign(fresh.begin(), fresh.end());

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "FreeBodies.hpp"
+
+#include <core/Clump.hpp>
+#include <pkg/common/Wall.hpp>
+
+namespace yade {
+
+namespace {
+    bool isWall(const Body& body) { return dynamic_cast<const Wall*>(body.shape.get()); }
+
+    /// NewtonIntegrator turns it by its angular momentum.
+    bool turnsByMomentum(const Body& body)
+    {
+        return body.isAspherical() && (body.state->blockedDOFs & State::DOF_RXRYRZ) == 0;
+    }
+
+    Real inverseInertia(const Body& body)
+    {
+        const State& state = *body.state;
+        if (!turnsByMomentum(body)) return 1 / state.inertia[2];
+        const Vector3r axis = state.ori.conjugate() * Vector3r::UnitZ();
+        return axis.dot(axis.cwiseQuotient(state.inertia));
+    }
+
+    /// As InsertionSortCollider is told by NewtonIntegrator, which has looked before.
+    void sortWhenOutOfBound(Scene& scene, const Body& body)
+    {
+        if (!body.bound) return;
+        const Real way = (body.state->pos - body.bound->refPos).cwiseAbs().maxCoeff();
+        if (!(way < body.bound->sweepLength)) scene.doSort = true;
+    }
+} // namespace
+
+shared_ptr<Body> FreeBodies::mover(const Scene& scene, const shared_ptr<Body>& body)
+{
+    const auto& mover = body->isClumpMember() ? (*scene.bodies)[body->clumpId] : body;
+    const unsigned all = State::DOF_X | State::DOF_Y | (isWall(*body) ? 0 : State::DOF_RZ);
+    return (mover->state->blockedDOFs & all) == all ? nullptr : mover;
+}
+
+softgrain::RigidBody<2>* FreeBodies::take(const shared_ptr<Body>& mover, const SoftState& grain, Real moved)
+{
+    const auto [at, added] = all_.try_emplace(mover->id);
+    Free& free = at->second;
+    if (!added) return &free.rigid;
+    const State& state = *mover->state;
+    const auto blocked = [&state](unsigned axes) { return (state.blockedDOFs & axes) == axes; };
+    const bool turns = !blocked(State::DOF_RZ) && !isWall(*mover);
+    const std::string whose = "body #" + std::to_string(mover->id) + ", a " + mover->shape->getClassName()
+        + ", is free to move and touches soft grain #" + std::to_string(grain.grain.id) + ", but ";
+    if (!blocked(State::DOF_X | State::DOF_Y) && !(state.mass > 0))
+        throw std::runtime_error(whose + "its mass is " + softgrain::shown(state.mass)
+                                 + "; set state.mass above 0, or state.blockedDOFs = 'xyzXYZ'.");
+    if (turns && !(state.inertia.minCoeff() > 0))
+        throw std::runtime_error(whose + "its moment of inertia is " + softgrain::shown(state.inertia.minCoeff())
+                                 + "; set state.inertia above 0, or block its turns by 'XYZ' in state.blockedDOFs.");
+    if (!isWall(*mover) && !(std::abs(state.pos[2] - grain.pos[2]) <= 1e-6 * grain.grain.radius))
+        throw std::runtime_error(whose + "its centre is at z = " + softgrain::shown(state.pos[2])
+                                 + " m, off the plane of the grain; put it at z = " + softgrain::shown(grain.pos[2])
+                                 + " m and keep it there by 'zXY' in state.blockedDOFs.");
+    free.body = mover;
+    free.moved = moved;
+    free.rigid.centre = (state.pos - moved * state.vel).head<2>();
+    free.rigid.twist << state.vel[0], state.vel[1], state.angVel[2];
+    free.rigid.mobility.setZero();
+    for (int d = 0; d < 2; ++d)
+        if (!blocked(State::axisDOF(d))) free.rigid.mobility(d, d) = 1 / state.mass;
+    if (turns) free.rigid.mobility(2, 2) = inverseInertia(*mover);
+    return &free.rigid;
+}
+
+void FreeBodies::move(Scene& scene, Real dt)
+{
+    for (auto& [id, free] : all_) {
+        State& state = *free.body->state;
+        const auto& twist = free.rigid.twist;
+        const Vector3r vel(twist[0], twist[1], state.vel[2]);
+        state.pos.head<2>() += (dt * vel - free.moved * state.vel).head<2>();
+        const Real angle = dt * twist[2] - free.moved * state.angVel[2];
+        state.ori = Quaternionr(AngleAxisr(angle, Vector3r::UnitZ())) * state.ori;
+        state.ori.normalize();
+        if (turnsByMomentum(*free.body) && free.rigid.mobility(2, 2) > 0)
+            state.angMom[2] += (twist[2] - state.angVel[2]) / free.rigid.mobility(2, 2);
+        state.vel = vel;
+        state.angVel[2] = twist[2];
+        sortWhenOutOfBound(scene, *free.body);
+        if (!free.body->isClump()) continue;
+        for (const auto& [member, place] : static_cast<const Clump&>(*free.body->shape).members) {
+            const Body& body = *(*scene.bodies)[member];
+            State& its = *body.state;
+            its.pos = state.pos + state.ori * place.position;
+            its.ori = state.ori * place.orientation;
+            its.vel = state.vel + state.angVel.cross(its.pos - state.pos);
+            its.angVel = state.angVel;
+            sortWhenOutOfBound(scene, body);
+        }
+    }
+}
+
+} // namespace yade
