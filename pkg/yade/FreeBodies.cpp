@@ -23,6 +23,19 @@ namespace {
         return axis.dot(axis.cwiseQuotient(state.inertia));
     }
 
+    /// By the velocities that a surface had before at two of its points; a wall has one.
+    softgrain::RigidBody<2>::Twist twistBefore(const softgrain::Surface<2>& surface, const softgrain::RigidBody<2>& rigid)
+    {
+        const auto velocity
+            = [&surface](int p) { return Eigen::Map<const softgrain::Vec<2>>(&surface.velocity_before[2 * size_t(p)]); };
+        const int far = surface.count / 2;
+        const softgrain::Vec<2> way = surface.x(far) - surface.x(0), change = velocity(far) - velocity(0);
+        softgrain::RigidBody<2>::Twist twist(0, 0, 0);
+        if (far > 0) twist[2] = (way[0] * change[1] - way[1] * change[0]) / way.squaredNorm();
+        twist.head<2>() = velocity(0) - rigid.lever(surface.x(0)) * twist;
+        return twist;
+    }
+
     /// As InsertionSortCollider is told by NewtonIntegrator, which has looked before.
     void sortWhenOutOfBound(Scene& scene, const Body& body)
     {
@@ -39,7 +52,8 @@ shared_ptr<Body> FreeBodies::mover(const Scene& scene, const shared_ptr<Body>& b
     return (mover->state->blockedDOFs & all) == all ? nullptr : mover;
 }
 
-softgrain::RigidBody<2>* FreeBodies::take(const shared_ptr<Body>& mover, const SoftState& grain, Real moved)
+softgrain::RigidBody<2>* FreeBodies::take(const shared_ptr<Body>& mover, const SoftState& grain,
+                                          const softgrain::Surface<2>& surface, Real moved)
 {
     const auto [at, added] = all_.try_emplace(mover->id);
     Free& free = at->second;
@@ -63,6 +77,7 @@ softgrain::RigidBody<2>* FreeBodies::take(const shared_ptr<Body>& mover, const S
     free.moved = moved;
     free.rigid.centre = (state.pos - moved * state.vel).head<2>();
     free.rigid.twist << state.vel[0], state.vel[1], state.angVel[2];
+    free.rigid.before = twistBefore(surface, free.rigid);
     free.rigid.mobility.setZero();
     for (int d = 0; d < 2; ++d)
         if (!blocked(State::axisDOF(d))) free.rigid.mobility(d, d) = 1 / state.mass;

@@ -19,9 +19,10 @@ public:
     static shared_ptr<Body> mover(const Scene& scene, const shared_ptr<Body>& body);
 
     void clear() { all_.clear(); }
-    /// A mover that touches a grain, as it was before NewtonIntegrator's step of `moved` [s], with the velocities after it. Throws
-    /// when it has no mass, or its centre is off the grain's plane.
-    softgrain::RigidBody<2>* take(const shared_ptr<Body>& mover, const SoftState& grain, Real moved);
+    /// A mover that touches a grain and showed this surface before NewtonIntegrator took a step of `moved` [s]: where it was then,
+    /// with the velocities of now. Throws when it has no mass, or its centre is off the grain's plane.
+    softgrain::RigidBody<2>* take(const shared_ptr<Body>& mover, const SoftState& grain,
+                                  const softgrain::Surface<2>& surface, Real moved);
     /// Brings the twists that the contact solver has changed to the bodies, as far as a step of dt takes them.
     void move(Scene& scene, Real dt);
 

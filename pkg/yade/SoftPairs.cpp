@@ -57,9 +57,7 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
     for (const Pair& pair : pairs_) {
         if (pair.rigid && pair.body1 >= 0) {
             auto& surface = pair.geom->rigid;
-            surface.rigid = pair.mover ? free_.take(pair.mover, *pair.second, moved) : nullptr;
-            for (int p = 0; surface.rigid && p < surface.count; ++p)
-                surface.v(p) = surface.rigid->lever(surface.x(p)) * surface.rigid->twist;
+            surface.rigid = pair.mover ? free_.take(pair.mover, *pair.second, surface, moved) : nullptr;
         }
         for (const auto& point : pair.geom->points()) {
             deepest = std::max(deepest, -point.gap / pair.size());
@@ -72,7 +70,7 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
             if (pair.body1 < 0) contact.drive = pair.rigid->vel.head<2>();
             contact.law = pair.phys->law;
             contact.impulse = kick * point.force;
-            problem.contacts.push_back(contact);
+            problem.add(contact);
         }
     }
 }

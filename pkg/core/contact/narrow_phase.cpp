@@ -40,6 +40,14 @@ namespace {
                  normal.dot(x - start) };
     }
 
+    /// Normal at a point of a circle.
+    Vec<2> outward(const Surface<2>& circle, int point)
+    {
+        const int n = circle.count;
+        const Vec<2> chord = circle.x((point + 1) % n) - circle.x((point + n - 1) % n);
+        return Vec<2>(chord.y(), -chord.x()).normalized();
+    }
+
     /// The point faces the line, and is not on its way round an end.
     bool faces(const Surface<2>& line, const Projection& at) { return at.t >= 0 && at.t <= 1 && at.gap > -2 * line.size; }
 
@@ -153,6 +161,7 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
             }
             Projection at = stand(mine, candidate.point, other, candidate.face, candidate.place);
             const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
+            if (mine.kind == Surface<Dim>::Kind::round) at.normal = -outward(mine, candidate.point);
             at.gap += let;
             candidate.face = at.segment;
             candidate.place = at.t;
@@ -212,7 +221,7 @@ template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int 
     if (closest < near)
         for (int p = 0; p < grain.count; ++p) {
             const double gap = side * (grain.x(p)[axis] - position);
-            if (gap < near) fresh.push_back({ p, false, 0, {}, { 1 }, side * Vec<Dim>::Unit(axis), gap, 0 });
+            if (gap < near) fresh.push_back({ p, false, 0, {}, {}, side * Vec<Dim>::Unit(axis), gap, 0 });
         }
     carry_forces(points, fresh);
     points.assign(fresh.begin(), fresh.end());

@@ -12,6 +12,7 @@ template <int Dim> struct RigidBody {
 
     Vec<Dim> centre; ///< of mass [m], at the start of the step
     Twist twist;     ///< velocity of the centre [m/s], then spin [rad/s]; the contact solver works on it
+    Twist before;    ///< at the start of the step
     /// Change of the twist by a unit impulse at the centre and a unit angular impulse [1/kg], [1/(kg m²)]; 0 where motion is
     /// blocked.
     Mat<twists> mobility;

@@ -44,6 +44,21 @@ template <int Dim> struct Surface {
     Eigen::Map<const Vec<Dim>> x(int point) const { return Eigen::Map<const Vec<Dim>>(&position[size_t(Dim) * point]); }
     Eigen::Map<Vec<Dim>> v(int point) { return Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * point]); }
 
+    /// Adds a point that moves with the rigid body; its number.
+    int add(const Vec<Dim>& place)
+    {
+        const auto lever = rigid->lever(place);
+        const auto append = [](std::vector<double>& field, const Vec<Dim>& value) {
+            field.insert(field.end(), value.data(), value.data() + Dim);
+        };
+        append(position, place);
+        append(velocity, lever * rigid->twist);
+        append(velocity_before, lever * rigid->before);
+        append(impulse, Vec<Dim>::Zero());
+        corner.push_back(false);
+        return count++;
+    }
+
     void strike(int point, const Vec<Dim>& by)
     {
         Eigen::Map<Vec<Dim>>(&impulse[size_t(Dim) * point]) += by;

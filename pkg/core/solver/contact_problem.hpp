@@ -55,6 +55,10 @@ template <int Dim> struct ContactProblem {
         return u;
     }
 
+    /// Adds a contact. A free rigid body meets a soft one where that is: its side of the contact becomes a point that is added to
+    /// its surface there. Else impulses would act on the two in places a gap apart, and friction turn the pair.
+    void add(Contact<Dim> contact);
+
     /// || r - P_K(r - u - mu |u_t| n) || over the contacts, divided by max(|q|, |r|, |u|): Siconos's measure of a
     /// frictional contact problem (Acary and Brogliato 2008; u with the gap, q its value without impulses).
     /// Velocities count in units of impulse through the mean contact inertia.

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 using namespace softgrain;
@@ -29,7 +30,6 @@ struct Impact {
         , mass(mass_ratio * grain.mass())
         , friction(friction_)
     {
-        surface.resize(101);
         surface.kind = Surface<2>::Kind::round;
         surface.size = radius;
         surface.rigid = &body;
@@ -43,6 +43,7 @@ struct Impact {
 
     void step()
     {
+        surface.resize(101);
         for (int p = 0; p < surface.count; ++p) {
             const double angle = 2 * M_PI * p / surface.count;
             const Vec<2> place = body.centre + radius * Vec<2>(std::cos(angle), std::sin(angle));
@@ -50,6 +51,7 @@ struct Impact {
             surface.v(p) = body.lever(place) * body.twist;
         }
         surface.velocity_before = surface.velocity;
+        body.before = body.twist;
         surface.speed = body.twist.head<2>().norm() + radius * std::abs(body.twist[2]);
         surface.travel += dt * surface.speed;
         surface.bound();
@@ -58,11 +60,12 @@ struct Impact {
         ContactProblem<2> problem;
         problem.bodies = { &surface, &grain.surface };
         for (const auto& p : pair.points)
-            problem.contacts.push_back({ p.on_second, !p.on_second, p.point, p.face, p.vertex, p.weight, p.normal,
-                                         p.gap / dt, Vec<2>::Zero(), friction, &law, p.force * dt });
+            problem.add({ p.on_second, !p.on_second, p.point, p.face, p.vertex, p.weight, p.normal, p.gap / dt,
+                          Vec<2>::Zero(), friction, &law, p.force * dt });
         NonlinearGaussSeidel<2>(1e-8).solve(problem);
         Assembly<2>::account(problem, balance);
-        touching += !problem.contacts.empty() && problem.contacts[0].impulse.norm() > 0;
+        touching += std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                                [](const auto& c) { return c.impulse.norm() > 0; });
         for (size_t c = 0; c < problem.contacts.size(); ++c) {
             const Contact<2>& contact = problem.contacts[c];
             pair.points[c].force = contact.impulse / dt;
@@ -111,12 +114,9 @@ void expect_balanced(double radius, double mass_ratio, double friction)
         impact.step();
     const Vec<3> change = impact.momentum() - before;
     const double size = impact.mass * 2;
-    EXPECT_GT(impact.touching, 20);
+    EXPECT_GT(impact.touching, 3);
     EXPECT_LE(change.head<2>().norm(), 1e-13 * std::max(size, impact.grain.mass()));
-    if (friction == 0)
-        EXPECT_LE(std::abs(change[2]), 1e-13 * 1e-3 * std::max(size, impact.grain.mass()));
-    else
-        EXPECT_LE(std::abs(change[2]), 1e-3 * std::abs(before[2])); // friction at the two ends of the gap
+    EXPECT_LE(std::abs(change[2]), 1e-13 * 1e-3 * std::max(size, impact.grain.mass())) << "friction makes no couple";
     EXPECT_GE(impact.balance.contact_dissipation, 0);
     EXPECT_GE(impact.balance.friction, -1e-15 * energy);
     const double lacking = (impact.energy() + impact.lost()) / energy - 1;
