@@ -5,11 +5,11 @@ import os
 import sys
 
 from yade import O
-from yade.wrapper import ElastMat, FrictMat, PyRunner
+from yade.wrapper import ElastMat, FrictMat, Ig2_Sphere_Sphere_ScGeom, PyRunner
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import run_tests  # noqa: E402
-from softgrain import (InputError, NeoHookeanMat, arrays, measures, softBox, softCloud, softDisc,  # noqa: E402
+from softgrain import (InputError, NeoHookeanMat, arrays, measures, rigidDisc, softBox, softCloud, softDisc,  # noqa: E402
                        softEngines, softPolygon)
 
 NAN = math.nan
@@ -60,6 +60,11 @@ BUILDERS = [
     ("a corner on another edge", lambda: softPolygon([(0, 0), (2, 0), (2, 2), (1, 0), (0, 2)]), ["softPolygon", "touch"]),
     ("corners out of one plane", lambda: softPolygon([(0, 0, 0), (1, 0, 1), (1, 1, 0)]), ["softPolygon", "z", "plane"]),
     ("a corner NaN", lambda: softPolygon([*SQUARE, (NAN, 2)]), ["vertex 4", "nan"]),
+    ("a rigid disc without radius", lambda: rigidDisc((0, 0), 0), ["rigidDisc", "radius", "above zero"]),
+    ("a rigid disc out of the plane", lambda: rigidDisc((0, 0), 1e-3, "stone", velocity=(0, 0, 1)), ["velocity", "z", "1"]),
+    ("a rigid disc of a spring", lambda: rigidDisc((0, 0), 1e-3, "spring"), ["rigidDisc", "ElastMat", "FrictMat"]),
+    ("a functor that is none", lambda: softEngines(functors=[FrictMat()]), ["functors", "FrictMat", "Ig2"]),
+    ("functors without a list", lambda: softEngines(functors=Ig2_Sphere_Sphere_ScGeom()), ["functors", "list"]),
     ("width below zero", lambda: softCloud(-1, 10), ["width", "-1"]),
     ("no grains", lambda: softCloud(1, 0), ["count", "0"]),
     ("diameters reversed", lambda: softCloud(0.02, 10, (2e-3, 1e-3)), ["diameters", "0.002", "smaller one first"]),

@@ -338,8 +338,20 @@ def wall_without_material():
     return body
 
 
-def box_with(orientation=Quaternion.Identity, fixed=True, low=-1.11e-3):
-    return lambda: box((0, low, 0), (3e-3, 1e-4, 3e-3), orientation=orientation, fixed=fixed, material="stone")
+def box_with(orientation=Quaternion.Identity, low=-1.11e-3):
+    return lambda: box((0, low, 0), (3e-3, 1e-4, 3e-3), orientation=orientation, fixed=True, material="stone")
+
+
+def stone(z=0.0, y=-2.01e-3, **attributes):
+    """A free sphere under the disc."""
+    body = sphere((0, y, z), 1e-3, material="stone")
+    for name, value in attributes.items():
+        setattr(body.state, name, value)
+    return body
+
+
+def with_newton_last():
+    return sorted(softEngines(), key=lambda engine: isinstance(engine, NewtonIntegrator))
 
 
 def later(change):
@@ -380,8 +392,14 @@ BODIES = [
     ("a facet without its functor", beside(a_facet, engines=unaware_of("Facet")), ["Ig2_Facet_SoftGrain_SoftGeom"]),
     ("a sphere without bound", beside(lambda: sphere((0, -2.01e-3, 0), 1e-3, material="stone", fixed=True),
                                       engines=knowing("sphere", Bo1_Wall_Aabb)), ["#1", "Sphere", "Bo1_Sphere_Aabb"]),
-    ("a sphere that is free to move", beside(lambda: sphere((0, -2.01e-3, 0), 1e-3, material="stone")),
-     ["#1", "Sphere", "fixed"]),
+    ("a free sphere and implicit steps", beside(stone, engines=lambda: softEngines(integrator="implicit", dt=1e-5)),
+     ["#1", "Sphere", "blockedDOFs", "SoftIntegrator"]),
+    ("a free sphere that NewtonIntegrator moves late", beside(stone, engines=with_newton_last),
+     ["#1", "Sphere", "NewtonIntegrator"]),
+    ("a free sphere without mass", beside(lambda: stone(mass=0)), ["#1", "Sphere", "mass", "0"]),
+    ("a free sphere without inertia", beside(lambda: stone(inertia=(0, 0, 0))), ["#1", "Sphere", "inertia", "0"]),
+    ("a free sphere off the plane", beside(lambda: stone(2e-4)), ["#1", "Sphere", "0.0002", "plane", "zXY"]),
+    ("two free spheres that no functor knows", beside(stone, lambda: stone(y=-4.0e-3)), ["#1", "#2", "Sphere", "functors"]),
     ("a facet whose velocity turns NaN", beside(lambda: thrown(a_facet())), ["#1", "facet", "finite"]),
     ("a wall without friction angle", beside(wall_of(frictionAngle=NAN)), ["#0", "#1", "friction", "nan"]),
     ("a wall of negative friction angle", beside(wall_of(frictionAngle=-1)), ["#0", "#1", "friction", "-1"]),
@@ -389,7 +407,6 @@ BODIES = [
      ["#1", "ElastMat", "FrictMat"]),
     ("a wall without material", beside(wall_without_material), ["#1", "material", "FrictMat"]),
     ("a box turned out of the plane", beside(box_with(Quaternion((1, 0, 0), 0.3))), ["#1", "z axis"]),
-    ("a box that is free to move", beside(box_with(fixed=False)), ["#1", "Box", "fixed"]),
     ("a wall whose velocity turns NaN", later(lambda body: setattr(body.state, "vel", (0, NAN, 0))), ["#2", "finite"]),
     ("a wall whose position turns NaN", later(lambda body: setattr(body.state, "pos", (0, NAN, 0))), ["#2", "finite"]),
     ("a clump of soft grains", clumped, ["#0", "clump"]),

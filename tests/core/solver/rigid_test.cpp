@@ -203,4 +203,63 @@ TEST(FreeRigidBody, IsInTheMatrixForm)
     }
 }
 
+/// A row of grains with rigid discs on three of them each, some of which lie far apart.
+std::vector<Vec<2>> impulses_of_a_row(int threads)
+{
+    Random random(27);
+    const SignoriniCoulomb<2> law;
+    std::deque<Grain<2>> grains;
+    std::deque<Surface<2>> surfaces;
+    std::deque<RigidBody<2>> bodies;
+    ContactProblem<2> problem;
+    for (int g = 0; g < 400; ++g) {
+        GrainStart start;
+        start.centre = Vec<2>(2e-3 * g, 0);
+        grains.push_back(make_grain(RandomProblem::mesh(), neo_hookean(), start));
+        problem.bodies.push_back(&grains.back().surface);
+        for (double& v : grains.back().surface.velocity)
+            v = random.uniform(-1, 1);
+    }
+    for (int b = 0; b < 199; ++b) {
+        bodies.emplace_back();
+        bodies[b].centre = Vec<2>(4e-3 * b + 2e-3, 1e-3);
+        bodies[b].mobility = Vec<3>(1e3, 1e3, b % 20 ? 1e8 : 0).asDiagonal();
+        bodies[b].twist << random.uniform(-1, 1), random.uniform(-1, 1), 0;
+        bodies[b].before = bodies[b].twist;
+        for (int grain : { 2 * b, 2 * b + 1, b % 20 ? 2 * b + 2 : (2 * b + 200) % 400 }) {
+            surfaces.emplace_back();
+            surfaces.back().rigid = &bodies[b];
+            problem.bodies.push_back(&surfaces.back());
+            for (int point : { random.integer(0, 4), random.integer(5, 9) }) {
+                Contact<2> contact {};
+                contact.body = grain;
+                contact.other = int(problem.bodies.size()) - 1;
+                contact.point = point;
+                contact.normal = -grains[0].mesh->surface[point].position.normalized();
+                contact.drive = contact.impulse = Vec<2>::Zero();
+                contact.gap_speed = random.uniform(-1, 0);
+                contact.friction = 0.3;
+                contact.law = &law;
+                problem.add(contact);
+            }
+        }
+    }
+    EXPECT_GT(problem.contacts.size(), 1000u); // two threads' worth
+    NonlinearGaussSeidel<2> solver(1e-6, 1000);
+    solver.threads = threads;
+    EXPECT_LT(solver.solve(problem), 1000);
+    EXPECT_LE(problem.residual(), 1e-4);
+    std::vector<Vec<2>> all;
+    for (const auto& contact : problem.contacts)
+        all.push_back(contact.impulse);
+    return all;
+}
+
+TEST(FreeRigidBody, GivesTheSameForEveryNumberOfThreads)
+{
+    const auto one = impulses_of_a_row(1);
+    for (int threads : { 2, 3 })
+        EXPECT_EQ(impulses_of_a_row(threads), one);
+}
+
 } // namespace
