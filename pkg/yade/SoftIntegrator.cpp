@@ -30,8 +30,26 @@ int SoftIntegrator::threads() const
 
 void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 
+namespace {
+    /// Python ends with the last owner of a body that a script has made, and wants its lock for it. Not to be called under
+    /// guard_: a script may hold the one and wait for the other.
+    void letGo(std::vector<shared_ptr<Body>>&& bodies)
+    {
+        if (bodies.empty()) return;
+        const PyGILState_STATE state = PyGILState_Ensure();
+        bodies.clear();
+        PyGILState_Release(state);
+    }
+} // namespace
+
 void SoftIntegrator::action()
 {
+    std::vector<shared_ptr<Body>> left;
+    {
+        const std::lock_guard<std::recursive_mutex> lock(guard_);
+        left.swap(left_);
+    }
+    letGo(std::move(left));
     const std::lock_guard<std::recursive_mutex> lock(guard_);
     Problems::raise();
     requireSaneAttributes();
@@ -173,7 +191,10 @@ void SoftIntegrator::adopt()
     requireSoftEngines(*scene);
     takeOver();
     assembly_.reset();
+    pairs_.clear();
     soft_ = {};
+    for (const auto& [body, state] : known_)
+        left_.push_back(body);
     known_.clear();
     for (const auto& body : *scene->bodies) {
         known_.push_back({ body, body->state.get() });
@@ -193,7 +214,6 @@ void SoftIntegrator::adopt()
     for (auto* grain : grains)
         grain->surface.ahead = lookAhead() * grain->radius;
     assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
-    pairs_.clear();
     assembled();
     evaluate();
 }
@@ -265,7 +285,7 @@ void SoftIntegrator::refuseStrangers(Body::id_t id1, Body::id_t id2) const
     throw std::runtime_error(
         "bodies #" + std::to_string(id1) + " and #" + std::to_string(id2) + ", a " + one->shape->getClassName() + " and a "
         + two->shape->getClassName()
-        + ", are rigid and free to move, and no functor knows their contact; give the functors of one of "
+        + ", are rigid, at least one is free to move, and no functor knows their contact; give the functors of one of "
           "YADE's laws, as in softEngines(functors=[...]), or take one of the two out by a mask.");
 }
 

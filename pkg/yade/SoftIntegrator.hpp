@@ -121,9 +121,10 @@ private:
 
     softgrain::NonlinearGaussSeidel<2> solver_;
     softgrain::SmallestCriticalStep<2> smallestCriticalStep_;
-    size_t interactionCount_ = 0; ///< in the last step
-    Real evaluatedJ_ = 1;         ///< smallest J when the stable step was evaluated
-    long evaluatedStep_ = -1;     ///< and the step of it
+    std::vector<shared_ptr<Body>> left_; ///< that may be gone from the scene; held until the next step
+    size_t interactionCount_ = 0;        ///< in the last step
+    Real evaluatedJ_ = 1;                ///< smallest J when the stable step was evaluated
+    long evaluatedStep_ = -1;            ///< and the step of it
     int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);

@@ -8,11 +8,12 @@ import time
 
 import numpy
 from yade import O, plot
+from yade.utils import sphere
 from yade.wrapper import FrictMat, PyRunner
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import Folder, run_tests  # noqa: E402
-from softgrain import (NeoHookeanMat, arrays, measures, softBox, softCloud, softDisc, softEngines,  # noqa: E402
+from softgrain import (NeoHookeanMat, arrays, measures, rigidDisc, softBox, softCloud, softDisc, softEngines,  # noqa: E402
                        softPolygon)
 
 WIDTH, SPEED = 8e-3, 2.0
@@ -96,6 +97,21 @@ def grains_can_be_erased_and_added(checks):
     for _ in range(50):
         O.step()
     checks.that("added", len(measures.softBodies()) == before)
+
+
+def a_body_of_no_other_owner_is_erased(checks):
+    # what a script has made and not kept ends with the engine, which runs outside of Python's lock
+    for make in (lambda: softDisc((0, 2.01e-3), 1e-3, 0, points=60),
+                 lambda: rigidDisc((0, 2.01e-3), 1e-3), lambda: sphere((0, 2.01e-3, 0), 1e-3, fixed=True)):
+        O.reset()
+        O.materials.append(NeoHookeanMat())
+        O.bodies.append(softDisc((0, 0), 1e-3, 0, points=60, velocity=(0, 1)))
+        other = O.bodies.append(make())
+        O.engines = softEngines()
+        O.run(300, True)
+        O.bodies.erase(other)
+        O.run(300, True)
+        checks.that("goes on", O.iter == 600)
 
 
 def saved_in_memory(checks):
@@ -317,6 +333,6 @@ def bodies_move_as_bodies(checks):
 
 
 run_tests(continued_equals_uninterrupted, reload_begins_anew, saved_in_memory, a_dense_scene_can_be_loaded,
-          grains_can_be_erased_and_added, bodies_come_and_go_while_it_runs, scenes_do_not_disturb_each_other,
-          run_in_the_background_equals_steps, an_error_in_the_background_is_kept_for_wait, sub_steps, plots,
-          energies_are_tracked, engines_of_yade_work_along, bodies_move_as_bodies)
+          grains_can_be_erased_and_added, a_body_of_no_other_owner_is_erased, bodies_come_and_go_while_it_runs,
+          scenes_do_not_disturb_each_other, run_in_the_background_equals_steps,
+          an_error_in_the_background_is_kept_for_wait, sub_steps, plots, energies_are_tracked, engines_of_yade_work_along, bodies_move_as_bodies)
