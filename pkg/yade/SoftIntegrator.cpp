@@ -11,6 +11,8 @@
 #include "contact/polyline.hpp"
 #include "solver/matrix_form.hpp"
 
+#include <pkg/common/Wall.hpp>
+
 #include <core/InteractionLoop.hpp>
 #include <core/Omega.hpp>
 
@@ -275,12 +277,13 @@ void SoftIntegrator::refuseStrangersNowAndThen()
         refuseStrangers();
 }
 
-/// Two rigid bodies, one of them free to move, that would pass through each other.
+/// Two rigid bodies, one of them free to move, that would pass through each other; walls cross anyway.
 void SoftIntegrator::refuseStrangers(Body::id_t id1, Body::id_t id2) const
 {
     if (soft_.of(id1) >= 0 || soft_.of(id2) >= 0) return;
     const auto &one = (*scene->bodies)[id1], &two = (*scene->bodies)[id2];
     if (!one || !two || !one->shape || !two->shape) return;
+    if (dynamic_cast<const Wall*>(one->shape.get()) && dynamic_cast<const Wall*>(two->shape.get())) return;
     if (!FreeBodies::mover(*scene, one) && !FreeBodies::mover(*scene, two)) return;
     throw std::runtime_error(
         "bodies #" + std::to_string(id1) + " and #" + std::to_string(id2) + ", a " + one->shape->getClassName() + " and a "
