@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace softgrain {
+
 template <int Dim> void ContactProblem<Dim>::add(Contact<Dim> contact)
 {
     if (bodies[contact.body]->rigid) {

@@ -15,9 +15,9 @@ namespace {
         Vec<Dim> step;
         Lever<Dim> turn;
 
-        LawEquation(const RigidBody<Dim>& body, const RigidContact<Dim>& contact)
+        LawEquation(const Mat<RigidBody<Dim>::twists>& mobility, const RigidContact<Dim>& contact)
         {
-            inertia = 1 / (1 / contact.inertia + (contact.lever * body.mobility * contact.lever.transpose()).trace());
+            inertia = 1 / (1 / contact.inertia + (contact.lever * mobility * contact.lever.transpose()).trace());
             const Vec<Dim> trial = contact.impulse - inertia * contact.velocity;
             reaction = contact.law->reaction({ contact.normal, contact.friction, trial });
             Mat<Dim> slope = Mat<Dim>::Zero(); // of the law, which is linear but for kinks
@@ -32,47 +32,62 @@ namespace {
         }
     };
 
+    /// Newton's method for a body of this mobility; false, with nothing of use left, when it does not converge.
+    template <int Dim>
+    bool converges(const Mat<RigidBody<Dim>::twists>& mobility, typename RigidBody<Dim>::Twist& gain,
+                   std::vector<RigidContact<Dim>>& contacts)
+    {
+        using Twist = typename RigidBody<Dim>::Twist;
+        constexpr int most = 30,
+                      patience = 10; // steps; from the latter on half ones, so that states of contacts do not cycle
+        constexpr double round_off = 1e-14, enough = 1e-6;
+        thread_local std::vector<LawEquation<Dim>> equations;
+        for (int round = 0;; ++round) {
+            equations.clear();
+            double change = 0, size = 0;
+            Twist sum = Twist::Zero();
+            for (const auto& contact : contacts) {
+                equations.emplace_back(mobility, contact);
+                change += (equations.back().reaction - contact.impulse).squaredNorm();
+                size += equations.back().reaction.squaredNorm();
+                sum += contact.lever.transpose() * equations.back().reaction;
+            }
+            if (round == most || (round > 0 && change <= round_off * round_off * size)) {
+                for (size_t i = 0; i < contacts.size(); ++i)
+                    contacts[i].impulse = equations[i].reaction;
+                gain = mobility * sum;
+                return change <= enough * enough * size;
+            }
+            Mat<RigidBody<Dim>::twists> resistance = Mat<RigidBody<Dim>::twists>::Zero();
+            sum.setZero();
+            for (size_t i = 0; i < contacts.size(); ++i) {
+                sum += contacts[i].lever.transpose() * (contacts[i].impulse + equations[i].step);
+                resistance += contacts[i].lever.transpose() * equations[i].turn;
+            }
+            const Mat<RigidBody<Dim>::twists> operation = Mat<RigidBody<Dim>::twists>::Identity() + mobility * resistance;
+            const double share = round < patience ? 1 : 0.5;
+            const Twist way = share * operation.partialPivLu().solve(mobility * sum - gain);
+            gain += way;
+            for (size_t i = 0; i < contacts.size(); ++i) {
+                RigidContact<Dim>& contact = contacts[i];
+                const Vec<Dim> step = share * equations[i].step - equations[i].turn * way;
+                contact.impulse += step;
+                contact.velocity += step / contact.inertia + contact.lever * way;
+            }
+        }
+    }
+
 } // namespace
 
 template <int Dim>
 void balance(const RigidBody<Dim>& body, typename RigidBody<Dim>::Twist& gain, std::vector<RigidContact<Dim>>& contacts)
 {
-    using Twist = typename RigidBody<Dim>::Twist;
-    constexpr int most = 30, patience = 10; // steps; from the latter on half ones, so that states of contacts do not cycle
-    constexpr double round_off = 1e-14;
-    thread_local std::vector<LawEquation<Dim>> equations;
-    for (int round = 0;; ++round) {
-        equations.clear();
-        double change = 0, size = 0;
-        Twist sum = Twist::Zero();
-        for (const auto& contact : contacts) {
-            equations.emplace_back(body, contact);
-            change += (equations.back().reaction - contact.impulse).squaredNorm();
-            size += equations.back().reaction.squaredNorm();
-            sum += contact.lever.transpose() * equations.back().reaction;
-        }
-        if (round == most || (round > 0 && change <= round_off * round_off * size)) {
-            for (size_t i = 0; i < contacts.size(); ++i)
-                contacts[i].impulse = equations[i].reaction;
-            gain = body.mobility * sum;
-            return;
-        }
-        Mat<RigidBody<Dim>::twists> resistance = Mat<RigidBody<Dim>::twists>::Zero();
-        sum.setZero();
-        for (size_t i = 0; i < contacts.size(); ++i) {
-            sum += contacts[i].lever.transpose() * (contacts[i].impulse + equations[i].step);
-            resistance += contacts[i].lever.transpose() * equations[i].turn;
-        }
-        const Mat<RigidBody<Dim>::twists> operation = Mat<RigidBody<Dim>::twists>::Identity() + body.mobility * resistance;
-        const double share = round < patience ? 1 : 0.5;
-        const Twist way = share * operation.partialPivLu().solve(body.mobility * sum - gain);
-        gain += way;
-        for (size_t i = 0; i < contacts.size(); ++i) {
-            RigidContact<Dim>& contact = contacts[i];
-            const Vec<Dim> step = share * equations[i].step - equations[i].turn * way;
-            contact.impulse += step;
-            contact.velocity += step / contact.inertia + contact.lever * way;
-        }
+    const auto start = gain;
+    const auto given = contacts;
+    constexpr double heaviest = 1e9;
+    for (double heavier = 1; !converges<Dim>(body.mobility / heavier, gain, contacts) && heavier < heaviest; heavier *= 10) {
+        gain = start;
+        contacts = given;
     }
 }
 

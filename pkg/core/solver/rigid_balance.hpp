@@ -25,7 +25,8 @@ template <int Dim> struct RigidContact {
 ///     gain = mobility sum of lever^T impulse,    every impulse fulfils the law
 ///
 /// by Newton's method for both, starting from those given; the twist alone is left in its equations. They are of the same size
-/// however light or heavy the body is against the soft ones.
+/// however light or heavy the body is against the soft ones. Where they do not converge, as friction may wedge a very light
+/// body, it counts as ten times heavier, and so on.
 template <int Dim>
 void balance(const RigidBody<Dim>& body, typename RigidBody<Dim>::Twist& gain, std::vector<RigidContact<Dim>>& contacts);
 
