@@ -11,7 +11,7 @@ from yade.wrapper import (FrictMat, Ig2_Sphere_Sphere_ScGeom, Ip2_FrictMat_Frict
                           Law2_ScGeom_FrictPhys_CundallStrack, PyRunner)
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, run_tests  # noqa: E402
+from scene_testing import Folder, held_or_lost, run_tests  # noqa: E402
 from softgrain import NeoHookeanMat, measures, rigidDisc, softDisc, softEngines  # noqa: E402
 
 R = 1e-3
@@ -35,15 +35,20 @@ def kinetic(body):
     return (state.mass * state.vel.squaredNorm() + state.inertia[2] * state.angVel[2]**2) / 2
 
 
-def soft_energy():
-    """What the grains hold or have lost [J/m]."""
-    soft = measures.softIntegrator()
-    return soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-
-
 def run_until(time):
     while O.time < time:
         O.step()
+
+
+def mean_force(body, begin, end):
+    """Along y, from one time to the other, which the scene runs to [N/m]."""
+    total, first = 0.0, None
+    while O.time < end:
+        O.step()
+        if O.time > begin:
+            first = first or O.time
+            total += O.forces.f(body)[1] * O.dt
+    return total / (O.time - first)
 
 
 def impact(sign=1, friction=0.0, dt=None, duration=6e-4, **disc):
@@ -65,7 +70,7 @@ def momentum_is_kept(checks):
         checks.that("apart again", measures.softIntegrator().contactCount == 0)
         checks.that("momentum", (total - Vector3(before, 0, 0)).norm() < 1e-12 * abs(before), total / before)
         checks.that("they have met", states[0].vel.norm() > 1, states[0].vel)
-        energy = soft_energy() + kinetic(stone)
+        energy = held_or_lost(measures.softIntegrator()) + kinetic(stone)
         first = states[1].mass * 9 / 2 + states[1].inertia[2] * 500**2 / 2
         checks.close_to("energy", energy / first, 1, 2e-3)
         soft = measures.softIntegrator()
@@ -97,13 +102,7 @@ def it_rests_on_a_grain(checks):
     stone = O.bodies.append(rigidDisc((0, 1.5 * R), 0.5 * R, "stone"))
     O.bodies[stone].state.blockedDOFs = "zxXYZ"
     O.engines = softEngines(gravity=(0, -300, 0))
-    total, last = 0.0, None
-    while O.time < 0.03:
-        O.step()
-        if O.time > 0.01:
-            last = last or O.time
-            total += O.forces.f(stone)[1] * O.dt
-    mean = total / (O.time - last)
+    mean = mean_force(stone, 0.01, 0.03)
     weight = O.bodies[stone].state.mass * 300
     checks.close_to("the grain carries it", mean / weight, 1, 0.02)
     checks.that("and it stays above", O.bodies[stone].state.pos[1] > 1.4 * R, O.bodies[stone].state.pos[1] / R)
@@ -225,13 +224,7 @@ def a_lid_rests_among_walls(checks):
     lid = O.bodies.append(wall(1.001 * R, axis=1, sense=-1, material="stone"))
     O.bodies[lid].state.mass, O.bodies[lid].state.blockedDOFs = 1e-2, "xzXYZ"
     O.engines = softEngines(gravity=(0, -100, 0))
-    total, begin = 0.0, None
-    while O.time < 0.02:
-        O.step()
-        if O.time > 0.002:
-            begin = begin or O.time
-            total += O.forces.f(lid)[1] * O.dt
-    checks.close_to("the grain carries it", total / (O.time - begin) / (1e-2 * 100), 1, 0.02)
+    checks.close_to("the grain carries it", mean_force(lid, 0.002, 0.02) / (1e-2 * 100), 1, 0.02)
 
 
 def a_box_is_hit(checks):

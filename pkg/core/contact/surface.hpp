@@ -4,6 +4,7 @@
 #include "contact/rigid_body.hpp"
 #include "grid/surface_operator.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace softgrain {
@@ -43,6 +44,14 @@ template <int Dim> struct Surface {
     }
     Eigen::Map<const Vec<Dim>> x(int point) const { return Eigen::Map<const Vec<Dim>>(&position[size_t(Dim) * point]); }
     Eigen::Map<Vec<Dim>> v(int point) { return Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * point]); }
+
+    /// Of the fastest point.
+    void measure_speed()
+    {
+        speed = 0;
+        for (int p = 0; p < count; ++p)
+            speed = std::max(speed, v(p).norm());
+    }
 
     /// Adds a point that moves with the rigid body; its number.
     int add(const Vec<Dim>& place)

@@ -8,12 +8,9 @@ namespace softgrain {
 
 template <int Dim> void ContactProblem<Dim>::add(Contact<Dim> contact)
 {
-    if (bodies[contact.body]->rigid) {
-        Vec<Dim> foot = Vec<Dim>::Zero();
-        for (int k = 0; k < face_vertices<Dim>; ++k)
-            foot += contact.weight[k] * bodies[contact.other]->x(contact.vertex[k]);
-        contact.point = bodies[contact.body]->add(foot);
-    } else if (contact.other >= 0 && bodies[contact.other]->rigid) {
+    if (bodies[contact.body]->rigid)
+        contact.point = bodies[contact.body]->add(foot(contact));
+    else if (contact.other >= 0 && bodies[contact.other]->rigid) {
         contact.vertex = { bodies[contact.other]->add(bodies[contact.body]->x(contact.point)) };
         contact.weight = { 1 };
     }

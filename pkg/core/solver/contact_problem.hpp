@@ -55,6 +55,15 @@ template <int Dim> struct ContactProblem {
         return u;
     }
 
+    /// Where a contact is on the other body.
+    Vec<Dim> foot(const Contact<Dim>& contact) const
+    {
+        Vec<Dim> sum = Vec<Dim>::Zero();
+        for (int k = 0; k < face_vertices<Dim>; ++k)
+            sum += contact.weight[k] * bodies[contact.other]->x(contact.vertex[k]);
+        return sum;
+    }
+
     /// Adds a contact. A free rigid body meets a soft one where that is: its side of the contact becomes a point that is added to
     /// its surface there. Else impulses would act on the two in places a gap apart, and friction turn the pair.
     void add(Contact<Dim> contact);

@@ -260,11 +260,8 @@ private:
                 if (!surface.rigid) continue;
                 const auto [at, added] = places.try_emplace(surface.rigid, all.size());
                 if (added) all.push_back({ surface.rigid, RigidBody<Dim>::Twist::Zero(), {} });
-                Vec<Dim> foot = Vec<Dim>::Zero();
-                for (int k = 0; !of_point && k < face_vertices<Dim>; ++k)
-                    foot += contact.weight[k] * surface.x(contact.vertex[k]);
-                if (of_point) foot = surface.x(contact.point);
-                all[at->second].contacts.push_back({ g, i, (of_point ? 1 : -1) * surface.rigid->lever(foot) });
+                const Vec<Dim> place = of_point ? Vec<Dim>(surface.x(contact.point)) : problem_->foot(contact);
+                all[at->second].contacts.push_back({ g, i, (of_point ? 1 : -1) * surface.rigid->lever(place) });
             }
         for (Rigid& rigid : all) {
             const int first = rigid.contacts.front().group, last = rigid.contacts.back().group;

@@ -82,15 +82,13 @@ namespace {
     {
         UpdatedBody<Dim>& body = *grain.updated;
         Surface<Dim>& surface = grain.surface;
-        surface.response = &body.response();    // of this very grain, which may be a copy
-        for (int p = 0; p < surface.count; ++p) // on the grid of this step
-            Eigen::Map<Vec<Dim>>(&surface.velocity_before[size_t(Dim) * p]) = grain.radius * body.velocity_at_surface(p);
+        surface.response = &body.response();            // of this very grain, which may be a copy
+        grain.read_velocities(surface.velocity_before); // on the grid of this step
         if (grain.spin_acceleration != Mat<Dim>::Zero()) grain.add_velocity(Vec<Dim>::Zero(), dt * grain.spin_acceleration);
         grain.min_J
             = body.kick(*grain.mesh, *grain.law, grain.parameters.data(), dt / (grain.density * grain.radius * grain.radius),
                         dt / grain.radius * (gravity + grain.acceleration));
-        for (int p = 0; p < surface.count; ++p)
-            surface.v(p) = grain.radius * body.velocity_at_surface(p);
+        grain.read_velocities(surface.velocity);
     }
 
     /// Lays the grid anew where the points of a grain have gone, if they have gone anywhere; what is wrong with that.
@@ -132,11 +130,8 @@ namespace {
     {
         const std::string complaint = settle_updated(grain, grain.updated->arrive(dt));
         Surface<Dim>& surface = grain.surface;
-        surface.speed = 0;
-        for (int p = 0; p < surface.count; ++p) {
-            surface.v(p) = grain.radius * grain.updated->velocity_at_surface(p);
-            surface.speed = std::max(surface.speed, surface.v(p).norm());
-        }
+        grain.read_velocities(surface.velocity);
+        surface.measure_speed();
         surface.travel += dt * surface.speed;
         grain.min_J = 1e300;
         for (const Mat<Dim>& F : grain.updated->deformation)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/grain.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace softgrain {
@@ -96,14 +97,19 @@ template <int Dim> void Grain<Dim>::refresh()
         surface.corner[p] = mesh->surface[p].corner;
     if (updated) {
         settle();
-        for (int p = 0; p < surface.count; ++p)
-            surface.v(p) = radius * updated->velocity_at_surface(p);
+        read_velocities(surface.velocity);
     } else
         refresh_from_nodes();
-    surface.speed = 0;
-    for (int p = 0; p < surface.count; ++p)
-        surface.speed = std::max(surface.speed, surface.v(p).norm());
+    surface.measure_speed();
     surface.bound();
+}
+
+template <int Dim> void Grain<Dim>::read_velocities(std::vector<double>& field) const
+{
+    for (int p = 0; p < surface.count; ++p) {
+        const Vec<Dim> v = radius * updated->velocity_at_surface(p);
+        std::copy_n(v.data(), Dim, &field[size_t(Dim) * p]);
+    }
 }
 
 template <int Dim> void Grain<Dim>::refresh_from_nodes()

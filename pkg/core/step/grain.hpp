@@ -46,6 +46,8 @@ template <int Dim> struct Grain {
     void refresh();
     /// Surface and motion of an updated-Lagrangian grain after its points have moved: lays its grid anew.
     void settle();
+    /// Velocities of the surface points of an updated-Lagrangian grain on the grid as it is, [point][Dim] [m/s].
+    void read_velocities(std::vector<double>& field) const;
     /// Positions of the surface points, where they are stale.
     void renew_positions();
     /// Moves the grain as it is.

@@ -67,9 +67,12 @@ namespace {
             : ImplicitBody<Dim>(1, { &grain }, grain.parameters.data())
             , grain_(grain)
         {
-            lay();
         }
-        void begin() override { lay(); }
+        void begin() override
+        {
+            this->pattern = std::make_shared<StiffnessPattern<Dim>>(*grain_.mesh, *grain_.updated);
+            grain_.surface.response = &grain_.updated->response();
+        }
         void state(AlignedVector& displacement, AlignedVector& velocity) const override
         {
             std::fill(displacement.begin(), displacement.end(), 0.0);
@@ -112,15 +115,6 @@ namespace {
 
     private:
         static constexpr int points = power(2, Dim);
-
-        void lay()
-        {
-            this->pattern = std::make_shared<StiffnessPattern<Dim>>(*grain_.mesh, *grain_.updated);
-            grain_.surface.response = &grain_.updated->response();
-            if (this->pattern->most_rows > StiffnessPattern<Dim>::row_limit)
-                throw SimulationError("soft grain #" + std::to_string(grain_.id)
-                                      + ": its material points have scattered too far for the implicit scheme.");
-        }
 
         Grain<Dim>& grain_;
     };

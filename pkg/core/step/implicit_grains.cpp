@@ -64,16 +64,16 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
         for (size_t lane = 0; lane < body.members.size(); ++lane) {
             const Grain<Dim>& grain = part.grain(lane);
             start_[part.index[lane]] = mark_[part.index[lane]] = grain.surface.position;
-            const double mass = grain.density * grain.radius * grain.radius,
-                         shear = grain.law->shear_modulus(grain.parameters.data());
-            part.inertia[lane] = settings.quasistatic ? settings.regularisation * shear : mass / (theta * theta * dt * dt);
+            part.inertia[lane] = settings.quasistatic
+                ? settings.regularisation * grain.law->shear_modulus(grain.parameters.data())
+                : part.mass_unit(lane) / (theta * theta * dt * dt);
             loads.push_back((gravity + grain.acceleration) / grain.radius);
             centres.push_back((grain.motion.position - grain.origin) / grain.radius);
             ways.push_back(prediction(grain.motion.position) / grain.radius);
         }
         part.each_component([&](size_t lane, int r, int d, size_t k) {
             const Grain<Dim>& grain = part.grain(lane);
-            const double mass = grain.density * grain.radius * grain.radius;
+            const double mass = part.mass_unit(lane);
             double load = loads[lane][d];
             for (int e = 0; e < Dim; ++e)
                 load += grain.spin_acceleration(d, e)
@@ -86,6 +86,10 @@ void ImplicitGrains<Dim>::begin(double dt, const ImplicitSettings& settings, con
         });
         part.base = part.stage = part.place = part.displacement;
     });
+    for (const Part& part : parts_)
+        if (part.body->pattern->most_rows > StiffnessPattern<Dim>::row_limit)
+            throw SimulationError("soft grain #" + std::to_string(part.grain(0).id)
+                                  + ": its material points have scattered too far for the implicit scheme.");
 }
 
 template <int Dim> void ImplicitGrains<Dim>::aim(Start start)
@@ -264,8 +268,7 @@ template <int Dim> void ImplicitGrains<Dim>::strike(const SurfaceField& impulses
         std::fill(part.loads.begin(), part.loads.end(), 0.0);
         add_surface_forces(part, impulses, share, part.loads);
         part.each_component([&](size_t lane, int r, int, size_t k) {
-            const Grain<Dim>& grain = part.grain(lane);
-            part.arrived[k] += part.loads[k] / (part.mass(r) * grain.density * grain.radius * grain.radius);
+            part.arrived[k] += part.loads[k] / (part.mass(r) * part.mass_unit(lane));
         });
         part.body->leave(part.place, part.arrived);
     });
@@ -285,10 +288,9 @@ template <int Dim> typename ImplicitGrains<Dim>::Energy ImplicitGrains<Dim>::ene
         part.body->forces(part.place, part.internal);
         part.body->energy(part.place, part.per_lane.data(), part.per_lane.data() + part.lanes());
         part.each_component([&](size_t lane, int r, int, size_t k) {
-            const Grain<Dim>& grain = part.grain(lane);
             Sums& sum = of_lane[lane];
             const double way = part.place[k] - part.displacement[k], v = part.arrived[k], before = part.velocity[k],
-                         m = grain.density * grain.radius * grain.radius * part.mass(r);
+                         m = part.mass_unit(lane) * part.mass(r);
             sum.by_contacts += way * part.loads[k];
             sum.by_loads += way * part.inertia[lane] * part.mass(r) * part.lift[k] * (rest ? 1 : settings_.theta);
             if (rest) return;

@@ -132,6 +132,8 @@ private:
         int rows() const { return body->pattern->rows; }
         double mass(int row) const { return body->pattern->mass[size_t(row)]; }
         const Grain<Dim>& grain(size_t lane) const { return *body->members[lane]; }
+        /// Inertia of a node mass of 1, in units of the stiffness: density radius^2 [Pa s^2].
+        double mass_unit(size_t lane) const { return grain(lane).density * grain(lane).radius * grain(lane).radius; }
         size_t at(int row, int d, size_t lane) const { return (size_t(row) * Dim + size_t(d)) * size_t(body->lanes) + lane; }
         /// Calls visit(lane, row, d, index into a vector) for every component of the grains that are there.
         template <class Visit> void each_component(const Visit& visit) const

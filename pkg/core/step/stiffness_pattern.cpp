@@ -10,11 +10,11 @@ namespace softgrain {
 template <int Dim> StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh)
 {
     constexpr int stencil = Discretisation<Dim>::stencil;
-    sort_rows(mesh.node_position, mesh.node_mass, mesh.master_count, mesh.cell_width);
+    const auto row_of = sort_rows(mesh.node_position, mesh.node_mass, mesh.master_count, mesh.cell_width);
     std::vector<std::vector<Share>> followed(mesh.node_count()); // what each node follows
     for (int i = 0; i < rows; ++i)
-        followed[i].push_back({ row_of_[i], 1 });
-    mesh.each_link([&](int slave, int host, double weight) { followed[slave].push_back({ row_of_[host], weight }); });
+        followed[i].push_back({ row_of[i], 1 });
+    mesh.each_link([&](int slave, int host, double weight) { followed[slave].push_back({ row_of[host], weight }); });
 
     for (const auto& region : mesh.regions) {
         Gradients gradients;
@@ -49,13 +49,13 @@ StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh, const U
 {
     constexpr int points = power(2, Dim);
     const PointGrid<Dim>& grid = body.grid();
-    sort_rows(grid.node_position, grid.node_mass, grid.node_count(), mesh.cell_width);
+    const auto row_of = sort_rows(grid.node_position, grid.node_mass, grid.node_count(), mesh.cell_width);
     for (size_t r = 0; r < mesh.regions.size(); ++r) {
         Gradients gradients;
         for (int q = 0; q < points; ++q) {
             const size_t p = points * r + q;
             for (int k = grid.point_row[p]; k < grid.point_row[p + 1]; ++k) {
-                const auto [entry, added] = gradients.try_emplace(row_of_[grid.entry[k].node]);
+                const auto [entry, added] = gradients.try_emplace(row_of[grid.entry[k].node]);
                 if (added) entry->second.fill(Vec<Dim>::Zero());
                 entry->second[q] = carried[p].transpose() * grid.entry[k].gradient;
             }
@@ -66,7 +66,7 @@ StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh, const U
     for (size_t s = 0; s < body.surface.size(); ++s) {
         std::map<int, double> weights;
         for (const auto& [node, weight] : grid.surface_row[s])
-            weights[row_of_[node]] = weight;
+            weights[row_of[node]] = weight;
         add_surface_point(body.surface[s], weights);
     }
     surface_start.push_back(int(surface.size()));
@@ -74,8 +74,8 @@ StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh, const U
 
 /// Masters along the longest side of the grain.
 template <int Dim>
-void StiffnessPattern<Dim>::sort_rows(const std::vector<Vec<Dim>>& nodes, const std::vector<double>& masses, int masters,
-                                      double cell_width)
+std::vector<int> StiffnessPattern<Dim>::sort_rows(const std::vector<Vec<Dim>>& nodes, const std::vector<double>& masses,
+                                                  int masters, double cell_width)
 {
     Vec<Dim> lo = nodes[0], hi = lo;
     for (const auto& x : nodes) {
@@ -92,14 +92,15 @@ void StiffnessPattern<Dim>::sort_rows(const std::vector<Vec<Dim>>& nodes, const 
         if (column(i) != column(j)) return column(i) < column(j);
         return nodes[i].sum() < nodes[j].sum();
     });
-    row_of_.resize(rows);
+    std::vector<int> row_of(rows);
     for (int r = 0; r < rows; ++r) {
-        row_of_[master[r]] = r;
+        row_of[master[r]] = r;
         position.push_back(nodes[master[r]]);
         mass.push_back(masses[master[r]]);
     }
     first.resize(rows);
     std::iota(first.begin(), first.end(), 0);
+    return row_of;
 }
 
 template <int Dim>

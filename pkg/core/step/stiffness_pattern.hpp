@@ -69,12 +69,12 @@ template <int Dim> struct StiffnessPattern {
 
 private:
     using Gradients = std::map<int, std::array<Vec<Dim>, power(2, Dim)>>; ///< of each row at each point of a region
-    void sort_rows(const std::vector<Vec<Dim>>& nodes, const std::vector<double>& masses, int masters, double cell_width);
+    /// Puts the masters, the first of the nodes, into rows; the row of each.
+    std::vector<int> sort_rows(const std::vector<Vec<Dim>>& nodes, const std::vector<double>& masses, int masters,
+                               double cell_width);
     void add_region(const typename Discretisation<Dim>::Region& region, const Gradients& gradients);
     void add_surface_point(const Vec<Dim>& place, const std::map<int, double>& weights);
     void count_blocks();
-
-    std::vector<int> row_of_; ///< of a master
 };
 
 extern template struct StiffnessPattern<2>;

@@ -151,8 +151,7 @@ template <int Dim> bool UpdatedBody<Dim>::arrive(double dt)
         deformation[p] += gradient * deformation[p].eval();
     }
     for (size_t s = 0; s < surface.size(); ++s)
-        for (const auto& [node, weight] : grid_.surface_row[s])
-            surface[s] += weight * node_way_[node];
+        surface[s] += at_surface(node_way_, int(s));
     return true;
 }
 
@@ -166,12 +165,17 @@ void UpdatedBody<Dim>::add_velocity(const Vec<Dim>& centre, const Vec<Dim>& of_c
     if (spin) spin = spin_of_nodes();
 }
 
-template <int Dim> Vec<Dim> UpdatedBody<Dim>::velocity_at_surface(int point) const
+template <int Dim> Vec<Dim> UpdatedBody<Dim>::at_surface(const std::vector<Vec<Dim>>& field, int point) const
 {
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (const auto& [node, weight] : grid_.surface_row[point])
-        sum += weight * node_velocity_[node];
+        sum += weight * field[node];
     return sum;
+}
+
+template <int Dim> Vec<Dim> UpdatedBody<Dim>::velocity_at_surface(int point) const
+{
+    return at_surface(node_velocity_, point);
 }
 
 template <int Dim> std::array<double, MotionSums<Dim>::count> UpdatedBody<Dim>::sums(const Discretisation<Dim>& mesh) const

@@ -52,6 +52,7 @@ public:
     bool unpack(const std::vector<double>& values);
 
 private:
+    Vec<Dim> at_surface(const std::vector<Vec<Dim>>& field, int point) const;
     double spin_of_nodes() const;
     void restore_spin();
 
