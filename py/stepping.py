@@ -4,6 +4,7 @@ import math
 
 from yade import O
 
+from . import measures
 from .checks import InputError
 
 LEAST_STEPS = 4     # in the time between two outputs
@@ -16,8 +17,8 @@ class WallForces:
     walls    maps a name to (body id, axis 0 or 1): which component of the force on which wall is averaged [N/m]
     run      of runs.py, whose memory keeps what is needed to go on: `forces`, and `middle`, what was seen half-way through
              the window, None before
-    longest  implicit steps: the longest [s]. O.dt is fitted so that steps end with the output, and means are by the
-             trapezoidal rule, since forces are those of the ends of steps
+    longest  implicit steps: the longest [s]. O.dt is fitted so that steps end with the output. Forces are those at
+             theta of a step, and means are over the straight lines between them
     """
 
     def __init__(self, walls, run, longest=None):
@@ -76,6 +77,8 @@ class WallForces:
 
     def _advance_by_long_steps(self, end):
         """The same by implicit steps of equal length."""
+        soft = measures.softIntegrator()
+        before = 0.5 if soft.quasistatic else soft.theta - 0.5      # share of the last step's force
         while end - O.time > 1e-9 * self.longest:
             if self.run.interrupted():
                 return False
@@ -84,7 +87,7 @@ class WallForces:
             self.steps += 1
             forces = [O.forces.f(wall)[axis] for wall, axis in self.walls.values()]
             for i, force in enumerate(forces):
-                self.impulses[i] += (self.last[i] + force) / 2 * O.dt
+                self.impulses[i] += (before * self.last[i] + (1 - before) * force) * O.dt
             self.last = forces
         return True
 

@@ -9,9 +9,11 @@ void SoftGeom::preSave(SoftGeom&)
 {
     savedPoints.clear();
     savedForces.clear();
+    savedCreep.clear();
     for (const auto& contact : points()) {
         savedPoints.insert(savedPoints.end(), { contact.point, int(contact.on_second) });
         savedForces.push_back(contact.force);
+        savedCreep.push_back(contact.creep);
     }
     savedNear.clear();
     savedClear.clear();
@@ -38,6 +40,7 @@ void SoftGeom::postLoad(SoftGeom&)
         saved[i].point = savedPoints[2 * i];
         saved[i].on_second = savedPoints[2 * i + 1] != 0;
         saved[i].force = savedForces[i];
+        saved[i].creep = i < savedCreep.size() ? savedCreep[i] : 0;
     }
     pair.points = plane.points = saved;
 }

@@ -35,7 +35,8 @@ public:
                     (vector<Real>, savedClear, , Attr::hidden, "Place on the face of each near point [-] and travel until which it is out of touch [m], in pairs."))(
                     (Real, savedValid, -1, Attr::hidden, "Travel until which the near points are complete [m]."))(
                     (Real, savedTravel, 0, Attr::hidden, "Travel of the rigid body [m]."))(
-                    (vector<Vector2r>, savedForces, , Attr::hidden, "Force on each contact point's side in the last step [N/m].")),
+                    (vector<Vector2r>, savedForces, , Attr::hidden, "Force on each contact point's side in the last step [N/m]."))(
+                    (vector<Real>, savedCreep, , Attr::hidden, "How far each contact point is off the place that it sticks to [m].")),
             createIndex(),
             .def("pointCount", &SoftGeom::pointCount, "Number of contact points looked at in the last step, touching or about to [-]."));
     REGISTER_CLASS_INDEX(SoftGeom, IGeom);

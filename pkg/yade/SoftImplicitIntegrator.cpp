@@ -72,6 +72,10 @@ void SoftImplicitIntegrator::take(double dt, double whole, const softgrain::Impl
     externalWork += outcome.work.external_work;
     const double weighed = (quasistatic ? 1 : theta) * dt;
     pairs_.add(weighed, weighed / whole);
+    auto contact = run_->step.contacts.begin();
+    for (auto& pair : pairs_.pairs())
+        for (auto& point : pair.geom->points())
+            point.creep = (contact++)->creep;
     std::vector<softgrain::Vec<2>> before;
     for (const SoftState* state : soft_.states)
         before.push_back(state->grain.motion.position);

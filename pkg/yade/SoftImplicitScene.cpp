@@ -87,6 +87,7 @@ std::vector<softgrain::BarrierContact<2>> SoftImplicitScene::contacts(double ahe
             softgrain::BarrierContact<2> contact {};
             pair.describe(point, contact);
             contact.let = point.let;
+            contact.creep = point.creep;
             if (geom.withPlane) {
                 contact.plane = geom.side * (position + dt * speed);
                 contact.drive = dt * pair.rigid->vel.head<2>();

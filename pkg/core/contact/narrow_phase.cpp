@@ -21,7 +21,9 @@ namespace {
             const auto key = [](const ContactPoint<Dim>& c) { return std::make_pair(c.on_second, c.point); };
             while (before != old.end() && key(*before) < key(contact))
                 ++before;
-            if (before != old.end() && key(*before) == key(contact)) contact.force = before->force;
+            if (before == old.end() || key(*before) != key(contact)) continue;
+            contact.force = before->force;
+            contact.creep = before->creep;
         }
     }
 

@@ -22,6 +22,7 @@ template <int Dim> struct ContactPoint {
     double gap;                                    ///< [m], negative: penetration
     double let;                                    ///< how far the point may enter, in the gap already; see allowance() [m]
     Vec<Dim> force = Vec<Dim>::Zero();             ///< [N] (N/m in 2D) of the last step: where the solver starts
+    double creep = 0;                              ///< implicit steps: that a sticking point is off where it stuck [m]
 };
 
 /// How far ahead contacts are looked for: [m], beyond what two bodies can close in one step.

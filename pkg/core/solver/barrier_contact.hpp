@@ -16,19 +16,20 @@ template <int Dim> struct BarrierContact {
     int other; ///< that the face is on; -1: a rigid plane
     int point;
     int face = 0;
-    double place = 0.5;                               ///< of the foot on the face, 0 to 1
-    std::array<int, face_vertices<Dim>> vertex {};    ///< that the face follows
-    std::array<double, face_vertices<Dim>> weight {}; ///< of the vertices
-    Vec<Dim> normal = Vec<Dim>::Zero();               ///< from the face to the point
-    double plane = 0;                                 ///< normal . x of the plane at the end of the step [m]
-    Vec<Dim> drive = Vec<Dim>::Zero();                ///< way of the plane during the step [m]
-    double let = 0;                                   ///< how far the point may enter, see allowance() [m]
-    double friction = 0;                              ///< Coulomb's coefficient
-    double size = 0;                                  ///< radius of the smaller body [m]
-    double gap = 0;                                   ///< now [m]
-    double slide = 0;                                 ///< way of the point along the face since the start of the step [m]
-    double slack = 0;                                 ///< stands for the gap, above 0 [m]
-    double force = 0, shear = 0;                      ///< normal and tangential [N] (N/m in 2D)
+    double place = 0.5;                                    ///< of the foot on the face, 0 to 1
+    std::array<int, face_vertices<Dim>> vertex {};         ///< that the face follows
+    std::array<double, face_vertices<Dim>> weight {};      ///< of the vertices
+    Vec<Dim> normal = Vec<Dim>::Zero();                    ///< from the face to the point
+    double plane = 0;                                      ///< normal . x of the plane at the end of the step [m]
+    Vec<Dim> drive = Vec<Dim>::Zero();                     ///< way of the plane during the step [m]
+    double let = 0;                                        ///< how far the point may enter, see allowance() [m]
+    double friction = 0;                                   ///< Coulomb's coefficient
+    double size = 0;                                       ///< radius of the smaller body [m]
+    double gap = 0;                                        ///< now [m]
+    double creep = 0;                                      ///< that the step starts with: way since the point stuck [m]
+    double slide = 0;                                      ///< way of the point along the face, creep included [m]
+    double slack = 0;                                      ///< stands for the gap, above 0 [m]
+    double force = 0, shear = 0;                           ///< normal and tangential [N] (N/m in 2D)
     double slack_step = 0, force_step = 0, shear_step = 0; ///< of an iteration
     bool aloof = false;    ///< stands off so far that its force counts for nothing in the linear system
     double compliance = 0; ///< of the two bodies along the normal [m/N]

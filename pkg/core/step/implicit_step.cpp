@@ -12,6 +12,7 @@ namespace {
 
     constexpr double most_penetration = 1e-5; ///< [radius of the smaller body]
     constexpr int most_firmer = 8;
+    constexpr double slipping = 0.99; ///< of what friction bears: above, a contact slides
 
 } // namespace
 
@@ -38,7 +39,8 @@ template <int Dim> void ImplicitStep<Dim>::locate()
             contact.gap = contact.normal.dot(body.x(contact.point)) - contact.plane;
         else
             contact.locate(body, *scene_->bodies[contact.other]);
-        if (contact.friction > 0) contact.slide = (difference(contact, way_) - contact.drive).dot(contact.tangent());
+        if (contact.friction > 0)
+            contact.slide = contact.creep + (difference(contact, way_) - contact.drive).dot(contact.tangent());
     }
 }
 
@@ -349,7 +351,7 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
     }
     const double stiffness = mean_stiffness();
     const double length = (settings_.quasistatic ? 1 : settings_.theta) * dt;
-    for (const auto& from : contacts) {
+    for (auto& from : contacts) {
         Contact<Dim> contact;
         contact.body = from.body;
         contact.other = from.other;
@@ -362,7 +364,10 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
         contact.friction = from.friction;
         contact.law = nullptr;
         // points that stand off bear no force but what the barrier leaves
-        contact.impulse = from.force > stiffness * from.gap ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
+        const bool pressed = from.force > stiffness * from.gap,
+                   sticks = std::abs(from.shear) < slipping * from.friction * from.force;
+        contact.impulse = pressed ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
+        from.creep = pressed && sticks ? from.slide : 0;
         contact.inertia = length * dt * (from.compliance > 0 ? 1 / from.compliance : stiffness);
         const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
         contact.gap_speed = from.gap / dt - rate;

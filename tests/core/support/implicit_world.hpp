@@ -35,6 +35,7 @@ public:
                 const auto& contact = run_->step.contacts[c];
                 if (contact.other < 0) plane_force[plane_of_[c]] -= contact.total();
                 source_[c]->force = contact.total();
+                source_[c]->creep = contact.creep;
             }
             assembly_->renew(h, settings.threads);
             pass(h);
@@ -97,6 +98,7 @@ private:
         c.normal = point.normal;
         c.force = std::max(0.0, point.force.dot(point.normal));
         c.shear = point.force.dot(c.tangent());
+        c.creep = point.creep;
         return c;
     }
     std::vector<BarrierContact<2>> contacts(double ahead, double dt) override
