@@ -150,7 +150,7 @@ class Squeeze:
         """Energy that is missing, over the work of the walls."""
         soft = self.soft
         stored = soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-        stored += getattr(soft, "numericalDissipation", 0.0)
+        stored += soft.viscousDissipation + getattr(soft, "numericalDissipation", 0.0)
         return (stored - soft.externalWork) / soft.externalWork
 
 

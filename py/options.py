@@ -138,11 +138,12 @@ def add_material(parser):
     group.add_argument("-c", "--c", type=positive, default=6e6, metavar="PA",
                        help="Mooney-Rivlin, Pa; write -c, since yade takes --c for an option of its own")
     group.add_argument("--density", type=positive, default=1000.0, metavar="KG/M3", help="of the undeformed grains")
+    group.add_argument("--viscosity", type=not_negative, default=0.0, metavar="PAS", help="shear viscosity of the solid, Pa s")
 
 
 def make_material(options):
     """The material of the grains that the options describe."""
-    common = {"density": options.density, "label": "grains"}
+    common = {"density": options.density, "viscosity": options.viscosity, "label": "grains"}
     if options.material == "nh":
         return wrapper.NeoHookeanMat(lambda_=options.lambda_, mu=options.mu, **common)
     return wrapper.MooneyRivlinMat(c1=options.c1, c2=options.c2, c=options.c, **common)

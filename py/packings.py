@@ -22,6 +22,7 @@ class SoftPacking:
         self.ids = [body.id for body in self.bodies]
         self.integrator = measures.softIntegrator()
         self.points = measures.pointTotal()
+        self.viscous = any(body.mat.viscosity > 0 for body in self.bodies)
 
     def area(self):
         """Current area of the grains [m²]."""
@@ -37,6 +38,7 @@ class SoftPacking:
         return {"kinetic_J": soft.kineticEnergy(), "elastic_J": soft.elasticEnergy(),
                 "external_work_J": soft.externalWork, "friction_J": soft.frictionDissipation,
                 "contact_dissipation_J": soft.contactDissipation,
+                **({"viscous_dissipation_J": soft.viscousDissipation} if self.viscous else {}),
                 **({"numerical_dissipation_J": soft.numericalDissipation} if self._implicit() else {})}
 
     def solver(self):

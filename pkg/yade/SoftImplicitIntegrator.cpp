@@ -11,7 +11,15 @@ namespace yade {
 
 YADE_PLUGIN((SoftImplicitIntegrator));
 
-void SoftImplicitIntegrator::assembled() { run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_); }
+void SoftImplicitIntegrator::assembled()
+{
+    for (const SoftState* state : soft_.states)
+        if (state->grain.viscosity > 0)
+            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id)
+                                     + ": its material has a viscosity, which SoftImplicitIntegrator does not know; give "
+                                       "viscosity=0, or take SoftIntegrator.");
+    run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_);
+}
 
 void SoftImplicitIntegrator::advance(double dt)
 {

@@ -120,6 +120,7 @@ void SoftIntegrator::advance(double dt)
             state->justPlaced = false;
     frictionDissipation += balance.friction;
     contactDissipation += balance.contact_dissipation;
+    viscousDissipation += assembly_->dissipated();
     externalWork += balance.external_work + loads_.takeWork();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
@@ -372,6 +373,7 @@ void SoftIntegrator::trackEnergies()
     energy.set(kineticEnergy(), "softKinetic", kineticId_);
     energy.set(frictionDissipation, "softFriction", frictionId_);
     energy.set(contactDissipation, "softContact", contactId_);
+    if (viscousDissipation > 0) energy.set(viscousDissipation, "softViscous", viscousId_);
     energy.set(-externalWork, "softExternalWork", workId_);
 }
 

@@ -58,6 +58,7 @@ public:
                     (Real, externalWork, 0, Attr::readonly, "Work on the grains since the start [J/m]: of rigid bodies, gravity, O.forces, blocked degrees of freedom, and of velocities set by hand."))(
                     (Real, frictionDissipation, 0, Attr::readonly, "Energy dissipated by friction since the start [J/m]."))(
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
+                    (Real, viscousDissipation, 0, Attr::readonly, "Energy dissipated by the viscosity of the grains since the start [J/m]."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
                     (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
                     (Real, contactIterations, 0, Attr::readonly, "Local contact problems solved since the start: contact points times sweeps [-]."))(
@@ -125,7 +126,7 @@ private:
     size_t interactionCount_ = 0;        ///< in the last step
     Real evaluatedJ_ = 1;                ///< smallest J when the stable step was evaluated
     long evaluatedStep_ = -1;            ///< and the step of it
-    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, workId_ = -1;
+    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);
 

@@ -27,6 +27,9 @@ const softgrain::LawKernels<2>& SoftMat::law() const
     if (!(frictionAngle >= 0 && frictionAngle < M_PI / 2))
         throw softgrain::UserError(name + ": frictionAngle = " + softgrain::shown(frictionAngle)
                                    + " rad has to lie in [0, pi/2).");
+    if (!(viscosity >= 0) || !std::isfinite(viscosity))
+        throw softgrain::UserError(name + ": viscosity = " + softgrain::shown(viscosity)
+                                   + " Pa s has to be 0 or more, and finite.");
     const std::string complaint = kernels.complaint(lawParameters().data());
     if (!complaint.empty()) throw softgrain::UserError(name + ": " + complaint + ", or its energy has no minimum at rest.");
     return kernels;

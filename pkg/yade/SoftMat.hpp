@@ -32,9 +32,9 @@ public:
             FrictMat,
             "Base of the materials of soft grains: hyperelastic, plane strain. :yref:`density<Material.density>` [kg/m³] is that of the "
             "undeformed grain; :yref:`frictionAngle<FrictMat.frictionAngle>` [rad] gives Coulomb's coefficient tan(angle) of a contact, the "
-            "smaller of the two bodies' angles counting, as YADE does. Moduli and density can be changed at any time; a changed angle counts "
+            "smaller of the two bodies' angles counting, as YADE does. Moduli, density and viscosity can be changed at any time; a changed angle counts "
             "for contacts that come after, as in YADE, and SoftPhys.tangensOfFrictionAngle is that of a contact there is. young and poisson are not used.",
-            ,
+            ((Real, viscosity, 0, , "Shear viscosity η of the solid [Pa·s] (Kelvin-Voigt): beside the elastic stress acts 2 η (D - tr D/3 1), D the rate of deformation in space; no stress by rigid motion or change of volume. 0: none, and no cost.")),
             createIndex(); density = 1000; frictionAngle = 0;);
     REGISTER_CLASS_INDEX(SoftMat, FrictMat);
 };

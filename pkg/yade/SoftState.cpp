@@ -41,6 +41,12 @@ namespace {
         }
         grain.parameters = material->lawParameters();
         grain.density = material->density;
+        grain.viscosity = material->viscosity;
+        if (grain.viscosity > 0 && grain.updated)
+            throw softgrain::UserError(
+                whose(body.id)
+                + ": viscosity is not there for formulation='updated'; give the material viscosity=0 or "
+                  "take formulation='total'.");
     }
 } // namespace
 
@@ -134,7 +140,8 @@ bool SoftState::outdated(const Body& body) const
             + ": its shape was changed, which a deformed grain cannot follow; erase the body and append a new one.");
     if (body.material != known_) return true;
     const auto& material = static_cast<const SoftMat&>(*known_);
-    return material.density != grain.density || material.lawParameters() != grain.parameters;
+    return material.density != grain.density || material.viscosity != grain.viscosity
+        || material.lawParameters() != grain.parameters;
 }
 
 void SoftState::renew(const Body& body)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/assembly.hpp"
 
+#include "step/viscosity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace softgrain {
@@ -168,6 +171,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
         }
     for (int b = 0; b < batch_count(); ++b)
         asleep_.push_back(is_at_rest(b));
+    dissipated_.assign(batches_.size(), 0);
 }
 
 template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> group)
@@ -183,6 +187,7 @@ template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> g
             Grain<Dim>& grain = *part[spare ? 0 : lane];
             batch->set_parameters(lane, grain.parameters);
             batch->inverse_inertia[lane] = 1 / (grain.density * grain.radius * grain.radius);
+            if (grain.viscosity > 0) batch->viscosity.resize(size_t(lanes));
             if (spare) continue;
             grain.pull();
             for (size_t i = 0; i < grain.displacement.size(); ++i) {
@@ -190,6 +195,8 @@ template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> g
                 batch->velocity[i * lanes + lane] = grain.velocity[i];
             }
         }
+        for (size_t lane = 0; lane < batch->viscosity.size(); ++lane)
+            batch->viscosity[lane] = part[lane < part.size() ? lane : 0]->viscosity;
         motion_kernels<Dim>().extend[batch->wide()](batch->data());
         batches_.push_back(std::move(batch));
         members_.push_back(part);
@@ -239,6 +246,7 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         hand_out(b, &Surface<Dim>::velocity_before);
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
         double least = 1;
+        if (!batch.viscosity.empty()) dissipated_[b] = dt * add_viscosity(b);
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             grain.min_J = batch.per_lane[lane];
@@ -262,6 +270,23 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
     if (!std::all_of(least_J_.begin(), least_J_.end(), [](double J) { return J > 0; }))
         for (Grain<Dim>* grain : grains_)
             if (!(grain->min_J > 0)) report_inversion(*grain);
+}
+
+/// Viscous forces of a batch; what they dissipate [W].
+template <int Dim> double Assembly<Dim>::add_viscosity(int b)
+{
+    Batch<Dim>& batch = *batches_[b];
+    double* power = batch.per_lane.data() + batch.lanes;
+    add_viscous_force(batch, batch.data(), power);
+    double sum = 0;
+    for (size_t lane = 0; lane < members_[b].size(); ++lane)
+        sum += std::pow(members_[b][lane]->radius, Dim) * power[lane];
+    return sum;
+}
+
+template <int Dim> double Assembly<Dim>::dissipated() const
+{
+    return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0);
 }
 
 template <int Dim> double Assembly<Dim>::min_J() const { return *std::min_element(least_J_.begin(), least_J_.end()); }

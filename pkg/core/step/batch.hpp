@@ -115,6 +115,7 @@ public:
     double* surface();
     double* force();
     AlignedVector displacement, velocity, parameters, inverse_inertia, sums, extent, gain, per_lane;
+    AlignedVector viscosity; ///< [lane] [Pa s]; empty where no grain has any
 
     KernelData<Dim> data();
     /// Of the law, of the grain in a lane [Pa].

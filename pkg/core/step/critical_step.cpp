@@ -2,6 +2,7 @@
 #include "step/critical_step.hpp"
 
 #include "step/spectrum.hpp"
+#include "step/viscosity.hpp"
 
 #include <algorithm>
 
@@ -14,17 +15,20 @@ namespace {
     /// Of its lower bound, the most that is believed: strong compression grows within few steps.
     constexpr double most = 1.25;
 
-    /// A grain and the lower bound of its step [s].
-    template <int Dim> using Bounded = std::pair<const Grain<Dim>*, double>;
+    /// A grain, the lower bound of its step [s], and the damping of its undeformed shape.
+    template <int Dim> struct Bounded {
+        const Grain<Dim>* grain;
+        double bound, damping;
+    };
     template <int Dim> using Grains = std::vector<Bounded<Dim>>;
 
     /// Grains of one mesh and law as they are deformed.
     template <int Dim> Batch<Dim> side_by_side(const Grains<Dim>& grains)
     {
         const int lanes = grains.size() == 1 ? 1 : 8;
-        Batch<Dim> batch(grains[0].first->mesh, *grains[0].first->law, lanes);
+        Batch<Dim> batch(grains[0].grain->mesh, *grains[0].grain->law, lanes);
         for (int lane = 0; lane < lanes; ++lane) {
-            const Grain<Dim>& grain = *grains[std::min(size_t(lane), grains.size() - 1)].first;
+            const Grain<Dim>& grain = *grains[std::min(size_t(lane), grains.size() - 1)].grain;
             batch.set_parameters(lane, grain.parameters);
             for (size_t i = 0; i < size_t(Dim) * batch.mesh->master_count; ++i)
                 batch.displacement[i * lanes + lane]
@@ -41,8 +45,9 @@ namespace {
         highest_eigenvalues(batch, coarse, stiffness.data());
         double least = 1e300;
         for (size_t lane = 0; lane < grains.size(); ++lane) {
-            const auto& [grain, bound] = grains[lane];
-            const double own = 2 / std::sqrt(stiffness[lane]) * std::sqrt(grain->density) * grain->radius;
+            const auto& [grain, bound, damping] = grains[lane];
+            const double own
+                = critical_step(*grain, 2 / std::sqrt(stiffness[lane]) / std::min(1.0, grain->min_stretch), damping);
             least = std::min({ least, own, most * bound });
         }
         return least;
@@ -54,7 +59,7 @@ namespace {
         std::vector<Grains<Dim>> groups;
         std::map<std::pair<const void*, const void*>, size_t> open;
         for (const auto& grain : grains) {
-            const auto [at, added] = open.try_emplace({ grain.first->mesh.get(), grain.first->law }, groups.size());
+            const auto [at, added] = open.try_emplace({ grain.grain->mesh.get(), grain.grain->law }, groups.size());
             if (added || groups[at->second].size() == 8) {
                 at->second = groups.size();
                 groups.emplace_back();
@@ -84,6 +89,14 @@ template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
     return 2 / std::sqrt(stiffness);
 }
 
+template <int Dim> double SmallestCriticalStep<Dim>::damping_of(const Grain<Dim>& grain)
+{
+    if (grain.viscosity == 0) return 0;
+    const auto [damping, added] = damping_.try_emplace(grain.mesh, 0);
+    if (added) damping->second = highest_viscous_eigenvalue<Dim>(grain.mesh);
+    return damping->second;
+}
+
 template <int Dim> double SmallestCriticalStep<Dim>::operator()(const std::vector<Grain<Dim>*>& grains, int threads)
 {
     double least = 1e300;
@@ -91,18 +104,18 @@ template <int Dim> double SmallestCriticalStep<Dim>::operator()(const std::vecto
     for (const Grain<Dim>* grain : grains) {
         const auto [unit, added] = unit_.try_emplace({ grain->mesh, grain->law, grain->parameters }, 0);
         if (added) unit->second = unit_critical_step(*grain);
-        const double bound = critical_step(*grain, unit->second);
+        const double damping = damping_of(*grain), bound = critical_step(*grain, unit->second, damping);
         if (grain->updated)
             least = std::min(least, bound); // its nodes have no displacements to vary
         else
-            bounded.push_back({ grain, bound });
+            bounded.push_back({ grain, bound, damping });
     }
-    std::stable_sort(bounded.begin(), bounded.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    std::stable_sort(bounded.begin(), bounded.end(), [](const auto& a, const auto& b) { return a.bound < b.bound; });
     // a grain whose bound is over the step of some other is not in question
     const auto first = bounded.begin() + std::min<size_t>(8, bounded.size());
     for (const auto& group : groups_of<Dim>({ bounded.begin(), first }))
         least = std::min(least, smallest_of(group));
-    const auto end = std::find_if(first, bounded.end(), [least](const auto& grain) { return grain.second >= least; });
+    const auto end = std::find_if(first, bounded.end(), [least](const auto& grain) { return grain.bound >= least; });
     const auto groups = groups_of<Dim>({ first, end });
 #pragma omp parallel for num_threads(team(threads, groups.size())) schedule(dynamic) reduction(min : least)
     for (size_t g = 0; g < groups.size(); ++g)

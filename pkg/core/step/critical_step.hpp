@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The largest stable step of symplectic Euler, 2 / omega_max of the stiffest mode.
+// The largest stable step of symplectic Euler, 2 / omega_max of the stiffest mode; viscosity makes it shorter.
 #pragma once
 
 #include "step/grain.hpp"
@@ -12,11 +12,17 @@ namespace softgrain {
 /// Of the undeformed grain, per sqrt(density) radius [s sqrt(m/kg)].
 template <int Dim> double unit_critical_step(const Grain<Dim>& grain);
 
+/// With forces -omega^2 u - c v, v half a step behind [s]: the root of omega^2 h^2 + 2 c h = 4.
+inline double stable_step(double omega, double c) { return (std::sqrt(c * c + 4 * omega * omega) - c) / (omega * omega); }
+
 /// A lower bound for a grain as deformed at its last evaluation of stretches [s]. Compression by a stretch s raises the
-/// frequency of waves along it by 1/s; the stiffest mode sees some mean over the grain.
-template <int Dim> double critical_step(const Grain<Dim>& grain, double unit_step)
+/// frequency of waves along it by 1/s, the damping of viscosity by its square; the stiffest mode sees some mean over the grain.
+/// `unit_damping`: highest_viscous_eigenvalue, where there is viscosity.
+template <int Dim> double critical_step(const Grain<Dim>& grain, double unit_step, double unit_damping = 0)
 {
-    return unit_step * std::sqrt(grain.density) * grain.radius * std::min(1.0, grain.min_stretch);
+    const double stretch = std::min(1.0, grain.min_stretch), inertia = grain.density * grain.radius * grain.radius;
+    return stable_step(2 / (unit_step * std::sqrt(inertia) * stretch),
+                       grain.viscosity * unit_damping / (inertia * stretch * stretch));
 }
 
 /// The smallest of many grains' steps.
@@ -29,7 +35,10 @@ public:
 
 private:
     using Kind = std::tuple<std::shared_ptr<const Discretisation<Dim>>, const void*, std::array<double, max_parameters>>;
-    std::map<Kind, double> unit_; ///< steps of undeformed grains
+    double damping_of(const Grain<Dim>& grain);
+
+    std::map<Kind, double> unit_;                                          ///< steps of undeformed grains
+    std::map<std::shared_ptr<const Discretisation<Dim>>, double> damping_; ///< highest_viscous_eigenvalue
 };
 
 extern template double unit_critical_step<2>(const Grain<2>&);

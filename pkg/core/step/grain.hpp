@@ -27,6 +27,7 @@ template <int Dim> struct Grain {
     const LawKernels<Dim>* law = nullptr;
     std::array<double, max_parameters> parameters {}; ///< of the law [Pa]
     double density = 0, radius = 0;                   ///< [kg/m3], [m] (equal-volume radius)
+    double viscosity = 0;                             ///< [Pa s], see step/viscosity.hpp
     Vec<Dim> origin = Vec<Dim>::Zero();               ///< a node is at origin + radius (X + u) [m]
     std::vector<double> displacement, velocity;       ///< of the masters, [node][Dim] [radius], [radius/s]
     /// Updated-Lagrangian: its state, instead of the node fields. None, as it is unless set before place(): total-Lagrangian.

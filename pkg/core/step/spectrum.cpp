@@ -29,22 +29,11 @@ namespace {
 
 } // namespace
 
-template <int Dim> void highest_eigenvalues(Batch<Dim>& batch, int steps, double* per_lane)
+template <int Dim> void lanczos(Batch<Dim>& batch, int steps, double* per_lane, const Response& respond)
 {
-    // differences of forces at displacements small enough to be linear and large enough to be exact
-    constexpr double small = 1e-7;
     const int lanes = batch.lanes;
     const size_t size = size_t(Dim) * batch.mesh->master_count * lanes;
-    AlignedVector moved(batch.displacement), rest(size), now(size), before(size), next(size), min_J(lanes);
-    KernelData<Dim> data = batch.data();
-    data.displacement = moved.data();
-    const auto force = [&] {
-        motion_kernels<Dim>().extend[batch.wide()](data);
-        batch.law.internal_force[batch.wide()](data, min_J.data());
-    };
-    force();
-    std::copy(data.force, data.force + size, rest.begin());
-
+    AlignedVector now(size), before(size), next(size);
     std::mt19937 generator(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (size_t at = 0; at < size; at += lanes)
@@ -58,11 +47,9 @@ template <int Dim> void highest_eigenvalues(Batch<Dim>& batch, int steps, double
     normalise(now);
     Eigen::ArrayXXd diagonal(steps, lanes), beside(steps, lanes);
     for (int k = 0; k < steps; ++k) {
+        respond(now, next);
         for (size_t at = 0; at < size; ++at)
-            moved[at] = batch.displacement[at] + small * now[at];
-        force();
-        for (size_t at = 0; at < size; ++at)
-            next[at] = (rest[at] - data.force[at]) / small * batch.mesh->inverse_mass[at / lanes / Dim];
+            next[at] *= batch.mesh->inverse_mass[at / lanes / Dim];
         if (k > 0) add(next, -beside.row(k - 1).transpose(), before);
         diagonal.row(k) = product(batch, next, now).transpose();
         add(next, -diagonal.row(k).transpose(), now);
@@ -78,6 +65,30 @@ template <int Dim> void highest_eigenvalues(Batch<Dim>& batch, int steps, double
     }
 }
 
+template <int Dim> void highest_eigenvalues(Batch<Dim>& batch, int steps, double* per_lane)
+{
+    // differences of forces at displacements small enough to be linear and large enough to be exact
+    constexpr double small = 1e-7;
+    const size_t size = size_t(Dim) * batch.mesh->master_count * batch.lanes;
+    AlignedVector moved(batch.displacement), rest(size), min_J(batch.lanes);
+    KernelData<Dim> data = batch.data();
+    data.displacement = moved.data();
+    const auto force = [&] {
+        motion_kernels<Dim>().extend[batch.wide()](data);
+        batch.law.internal_force[batch.wide()](data, min_J.data());
+    };
+    force();
+    std::copy(data.force, data.force + size, rest.begin());
+    lanczos<Dim>(batch, steps, per_lane, [&](const AlignedVector& way, AlignedVector& response) {
+        for (size_t at = 0; at < size; ++at)
+            moved[at] = batch.displacement[at] + small * way[at];
+        force();
+        for (size_t at = 0; at < size; ++at)
+            response[at] = (rest[at] - data.force[at]) / small;
+    });
+}
+
 template void highest_eigenvalues<2>(Batch<2>&, int, double*);
+template void lanczos<2>(Batch<2>&, int, double*, const Response&);
 
 } // namespace softgrain
