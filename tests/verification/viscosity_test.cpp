@@ -71,7 +71,7 @@ TEST(Viscosity, DampsVibrationsOfADiscAsTheoryOfModesSays)
         double lambda, mu;
     };
     for (const Case& c : { Case { soft_neo_hookean(), 1e6, 1e6 }, Case { neo_hookean(), 61e6, 1.26e6 } }) {
-        const double omega = lowest(c.lambda, c.mu), viscosity = 0.02 * c.mu / omega,
+        const double omega = lowest(c.lambda, c.mu), viscosity = 0.05 * c.mu / omega,
                      expected = decay(c.lambda, c.mu, viscosity);
         World world;
         GrainStart start;
@@ -97,13 +97,13 @@ TEST(Viscosity, DampsVibrationsOfADiscAsTheoryOfModesSays)
             before = last;
             last = strain;
         }
-        const size_t from = 10; // higher modes have gone
+        const size_t from = 15; // higher modes have gone
         const double measured = -(peak.back() - peak[from]) / (time.back() - time[from]),
                      frequency = double(peak.size() - 1 - from) / (time.back() - time[from]);
         std::printf("lambda / mu %.0f: decay %.4g 1/s, theory %.4g (%+.2f %%); frequency %+.2f %%; damping ratio %.4f\n",
                     c.lambda / c.mu, measured, expected, 100 * (measured / expected - 1),
                     100 * (frequency * 2 * M_PI / omega - 1), expected / omega);
-        EXPECT_NEAR(measured / expected, 1, 0.03);
+        EXPECT_NEAR(measured / expected, 1, 0.02); // twice the error of the frequency and some
     }
 }
 
