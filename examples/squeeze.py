@@ -163,7 +163,7 @@ def check(squeeze, table, options):
                bool((numpy.diff(force[done > 0.05]) > 0).all())),
               (f"energy missing below 0.2 % of the work ({balance:.3%})", abs(balance) < 2e-3),
               (f"no point inverted (least J {least:.3f})", least > 0)]
-    material = {"lambda_", "mu", "c1", "c2", "c"} & options.given
+    material = {"lambda_", "mu", "c1", "c2", "c", "viscosity"} & options.given
     compared = {}
     if options.walls == 2 and not options.friction and not material:
         width = table["contact_half_width_m"]

@@ -11,21 +11,13 @@ namespace yade {
 
 YADE_PLUGIN((SoftImplicitIntegrator));
 
-void SoftImplicitIntegrator::assembled()
-{
-    for (const SoftState* state : soft_.states)
-        if (state->grain.viscosity > 0)
-            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id)
-                                     + ": its material has a viscosity, which SoftImplicitIntegrator does not know; give "
-                                       "viscosity=0, or take SoftIntegrator.");
-    run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_);
-}
+void SoftImplicitIntegrator::assembled() { run_ = std::make_unique<softgrain::ImplicitRun<2>>(*assembly_); }
 
 void SoftImplicitIntegrator::advance(double dt)
 {
     Stopwatch watch(stageSeconds);
     loads_.gather(*scene, gravity, threads());
-    refuseBlocked();
+    refuseUnknown();
     pairs_.collect(*scene, touchingPairs());
     refuseFree();
     if (fresh_) pairs_.refuseOverlaps();
@@ -123,14 +115,17 @@ bool SoftImplicitIntegrator::wallsAhead() const
     return false;
 }
 
-void SoftImplicitIntegrator::refuseBlocked() const
+void SoftImplicitIntegrator::refuseUnknown() const
 {
     for (const SoftState* state : soft_.states) {
+        const auto refuse = [&](const std::string& what, const char* fix) {
+            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id) + ": " + what
+                                     + " not known to SoftImplicitIntegrator; " + fix + ", or take SoftIntegrator.");
+        };
         const auto held = state->held();
-        if (held[0] || held[1] || held[2])
-            throw std::runtime_error("soft grain #" + std::to_string(state->grain.id)
-                                     + ": its blockedDOFs are not known to SoftImplicitIntegrator; free it, or take "
-                                       "SoftIntegrator.");
+        if (held[0] || held[1] || held[2]) refuse("its blockedDOFs are", "free it");
+        if (const double viscosity = state->grain.viscosity; viscosity > 0)
+            refuse("the viscosity of its material, " + softgrain::shown(viscosity) + " Pa s, is", "give viscosity=0");
     }
 }
 

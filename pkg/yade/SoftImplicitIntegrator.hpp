@@ -57,7 +57,7 @@ protected:
 private:
     void search();
     bool wallsAhead() const;
-    void refuseBlocked() const;
+    void refuseUnknown() const;
     void refuseFree();
     void take(double dt, double whole, const softgrain::ImplicitStep<2>::Outcome& outcome);
 

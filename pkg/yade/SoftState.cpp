@@ -43,10 +43,10 @@ namespace {
         grain.density = material->density;
         grain.viscosity = material->viscosity;
         if (grain.viscosity > 0 && grain.updated)
-            throw softgrain::UserError(
-                whose(body.id)
-                + ": viscosity is not there for formulation='updated'; give the material viscosity=0 or "
-                  "take formulation='total'.");
+            throw softgrain::UserError(whose(body.id) + ": the viscosity of its material, "
+                                       + softgrain::shown(grain.viscosity)
+                                       + " Pa s, is not known to formulation='updated'; give viscosity=0, or take "
+                                         "formulation='total'.");
     }
 } // namespace
 

@@ -82,6 +82,8 @@ MATERIALS = [
     ("density NaN", disc_of(NeoHookeanMat(density=NAN)), ["density", "nan"]),
     ("friction angle below zero", disc_of(NeoHookeanMat(frictionAngle=-0.1)), ["frictionAngle", "-0.1"]),
     ("friction angle over a right angle", disc_of(NeoHookeanMat(frictionAngle=2)), ["frictionAngle", "2"]),
+    ("viscosity below zero", disc_of(NeoHookeanMat(viscosity=-0.5)), ["#0", "viscosity", "-0.5"]),
+    ("viscosity NaN", disc_of(NeoHookeanMat(viscosity=NAN)), ["#0", "viscosity", "nan"]),
     ("the base of the materials", disc_of(SoftMat()), ["SoftMat", "NeoHookeanMat"]),
     ("a label helps to find it", disc_of(NeoHookeanMat(mu=-1, label="jelly")), ["jelly"]),
 ]

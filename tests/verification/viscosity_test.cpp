@@ -15,9 +15,9 @@ namespace {
 
 constexpr double R = 1e-3, density = 1000;
 
-/// The condition that modes of a free disc in plane strain with two nodal diameters are free of traction at the rim (Love 1927,
-/// section 214): displacements u_r = A k J'(k r) + B n J(q r) / r, u_t = -A n J(k r) / r - B q J'(q r), k and q the wave
-/// numbers of dilatation and shear.
+/// The condition that modes of a free disc in plane strain with two nodal diameters are free of traction at the rim: with
+/// Helmholtz's potentials displacements are u_r = A k J'(k r) + B n J(q r) / r, u_t = -A n J(k r) / r - B q J'(q r), k and q the
+/// wave numbers of dilatation and shear.
 double traction(double omega, double lambda, double mu)
 {
     constexpr int n = 2;
@@ -131,7 +131,7 @@ TEST(Viscosity, TakesTheEnergyThatItSays)
                 (world.energy() + dissipated) / energy - 1,
                 (after.momentum - before.momentum).norm() / before.momentum.norm(), after.angular / before.angular - 1);
     EXPECT_GT(dissipated, 0.1 * energy);
-    EXPECT_NEAR((world.energy() + dissipated) / energy, 1, 5e-3);
+    EXPECT_NEAR((world.energy() + dissipated) / energy, 1, 1e-4); // of finite strains
     EXPECT_LE((after.momentum - before.momentum).norm(), 1e-11 * before.momentum.norm());
     EXPECT_NEAR(after.angular / before.angular, 1, 1e-10);
 }

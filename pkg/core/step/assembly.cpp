@@ -187,7 +187,7 @@ template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> g
             Grain<Dim>& grain = *part[spare ? 0 : lane];
             batch->set_parameters(lane, grain.parameters);
             batch->inverse_inertia[lane] = 1 / (grain.density * grain.radius * grain.radius);
-            if (grain.viscosity > 0) batch->viscosity.resize(size_t(lanes));
+            if (grain.viscosity > 0) batch->set_viscosity(lane, grain.viscosity);
             if (spare) continue;
             grain.pull();
             for (size_t i = 0; i < grain.displacement.size(); ++i) {
@@ -195,8 +195,6 @@ template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> g
                 batch->velocity[i * lanes + lane] = grain.velocity[i];
             }
         }
-        for (size_t lane = 0; lane < batch->viscosity.size(); ++lane)
-            batch->viscosity[lane] = part[lane < part.size() ? lane : 0]->viscosity;
         motion_kernels<Dim>().extend[batch->wide()](batch->data());
         batches_.push_back(std::move(batch));
         members_.push_back(part);
@@ -246,7 +244,10 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         hand_out(b, &Surface<Dim>::velocity_before);
         batch.law.internal_force[batch.wide()](batch.data(), batch.per_lane.data());
         double least = 1;
-        if (!batch.viscosity.empty()) dissipated_[b] = dt * add_viscosity(b);
+        if (!batch.viscosity.empty()) {
+            add_viscous_force(batch, dt);
+            dissipated_[b] = viscous_loss(b) / 2;
+        }
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
             grain.min_J = batch.per_lane[lane];
@@ -272,15 +273,12 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
             if (!(grain->min_J > 0)) report_inversion(*grain);
 }
 
-/// Viscous forces of a batch; what they dissipate [W].
-template <int Dim> double Assembly<Dim>::add_viscosity(int b)
+/// Of a batch [J].
+template <int Dim> double Assembly<Dim>::viscous_loss(int b) const
 {
-    Batch<Dim>& batch = *batches_[b];
-    double* power = batch.per_lane.data() + batch.lanes;
-    add_viscous_force(batch, batch.data(), power);
     double sum = 0;
     for (size_t lane = 0; lane < members_[b].size(); ++lane)
-        sum += std::pow(members_[b][lane]->radius, Dim) * power[lane];
+        sum += std::pow(members_[b][lane]->radius, Dim) * softgrain::viscous_loss(*batches_[b], int(lane));
     return sum;
 }
 
@@ -320,6 +318,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
             }
             kernels.push[batch.wide()](batch.data(), batch.extent.data());
         }
+        if (!batch.viscosity.empty()) dissipated_[b] += viscous_loss(b) / 2;
         kernels.drift[batch.wide()](batch.data(), dt);
         sound[b] = observe(b, dt, after);
         for (const Grain<Dim>* grain : members_[b])

@@ -115,7 +115,8 @@ public:
     double* surface();
     double* force();
     AlignedVector displacement, velocity, parameters, inverse_inertia, sums, extent, gain, per_lane;
-    AlignedVector viscosity; ///< [lane] [Pa s]; empty where no grain has any
+    AlignedVector viscosity; ///< [lane] [Pa s]; empty where no grain has any, and so is
+    AlignedVector viscous;   ///< what viscosity gives in a step, per radius^(Dim-1) [Pa s]
 
     KernelData<Dim> data();
     /// Of the law, of the grain in a lane [Pa].
@@ -123,6 +124,13 @@ public:
     {
         for (int k = 0; k < max_parameters; ++k)
             parameters[size_t(k) * lanes + lane] = values[k];
+    }
+    /// Of the grain in a lane [Pa s].
+    void set_viscosity(int lane, double value)
+    {
+        viscosity.resize(lanes);
+        viscous.resize(displacement.size());
+        viscosity[lane] = value;
     }
     /// Index into the kernel tables.
     int wide() const { return lanes == 8; }

@@ -5,22 +5,20 @@
 #include "step/spectrum.hpp"
 #include "step/versions.hpp"
 
+#include <utility>
+
 namespace softgrain {
 namespace kernels {
 
     template <int Dim> struct ViscousForce {
-        template <class T, int L>
-        static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* viscosity, double* power)
+        template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* viscosity)
         {
-            constexpr int points = power_of_two;
+            constexpr int points = power(2, Dim);
             const T eta = item<T, L>(viscosity, 0);
+            clear<Dim, T, L>(data, data.force);
             extend<Dim, T, L>(data, data.velocity);
-            const auto f = field<T, L>(data.force);
-            for (int i = Dim * data.master_count; i < Dim * data.node_count; ++i)
-                f[i] = T {}; // slaves have handed over what they held
             KernelData<Dim> moving = data;
             moving.displacement = data.velocity;
-            T sum {};
             for (int r = 0; r < data.region_count; ++r) {
                 const auto& region = data.regions[r];
                 const double volume = region.volume / points;
@@ -39,16 +37,14 @@ namespace kernels {
                                     * ((rate[q].at[i][k] - (i == k ? 1.0 : 0.0)) * cof.at[j][k]
                                        + (rate[q].at[j][k] - (j == k ? 1.0 : 0.0)) * cof.at[i][k]);
                         }
-                    T trace {}, square {};
+                    T trace {};
                     for (int i = 0; i < Dim; ++i)
                         trace += D.at[i][i];
                     for (int i = 0; i < Dim; ++i)
                         for (int j = 0; j < Dim; ++j) {
-                            square += D.at[i][j] * D.at[i][j];
                             stress.at[i][j] = 2.0 * eta * D.at[i][j];
                             if (i == j) stress.at[i][j] -= 2.0 / 3 * eta * trace;
                         }
-                    sum += volume * J * 2.0 * eta * (square - trace * trace * (1.0 / 3));
                     for (int i = 0; i < Dim; ++i)
                         for (int j = 0; j < Dim; ++j) {
                             F[q].at[i][j] = T {};
@@ -59,38 +55,47 @@ namespace kernels {
                 load<Dim, L>(data, region, F);
             }
             fold<Dim, T, L>(data, data.force);
-            field<T, L>(power)[0] = sum;
         }
-
-        static constexpr int power_of_two = softgrain::power(2, Dim);
     };
 
 } // namespace kernels
 
-template <int Dim> void add_viscous_force(Batch<Dim>& batch, const KernelData<Dim>& data, double* power)
+template <int Dim> void add_viscous_force(Batch<Dim>& batch, double dt)
 {
-    static const auto kernel = Versions<kernels::ViscousForce<Dim>, const KernelData<Dim>&, double*, double*>::table();
-    kernel[batch.wide()](data, batch.viscosity.data(), power);
+    static const auto kernel = Versions<kernels::ViscousForce<Dim>, const KernelData<Dim>&, double*>::table();
+    KernelData<Dim> data = batch.data();
+    double* force = std::exchange(data.force, batch.viscous.data());
+    kernel[batch.wide()](data, batch.viscosity.data());
+    for (int i = 0; i < Dim * data.master_count * batch.lanes; ++i) {
+        force[i] += batch.viscous[i];
+        batch.viscous[i] *= dt;
+    }
+}
+
+template <int Dim> double viscous_loss(const Batch<Dim>& batch, int lane)
+{
+    double sum = 0;
+    for (size_t i = lane; i < size_t(Dim) * batch.mesh->master_count * batch.lanes; i += batch.lanes)
+        sum -= batch.viscous[i] * batch.velocity[i];
+    return sum;
 }
 
 template <int Dim> double highest_viscous_eigenvalue(const std::shared_ptr<const Discretisation<Dim>>& mesh)
 {
     constexpr int steps = 40;
     Batch<Dim> batch(mesh, law_kernels<Dim>("Neo-Hookean"), 1); // any law
-    batch.viscosity.assign(1, 1);
-    double highest, power;
+    batch.set_viscosity(0, 1);
+    double highest;
     lanczos<Dim>(batch, steps, &highest, [&](const AlignedVector& velocity, AlignedVector& response) {
         std::copy(velocity.begin(), velocity.end(), batch.velocity.begin());
-        const KernelData<Dim> data = batch.data();
-        std::fill_n(data.force, batch.velocity.size(), 0.0);
-        add_viscous_force(batch, data, &power);
-        for (size_t at = 0; at < response.size(); ++at)
-            response[at] = -data.force[at];
+        add_viscous_force(batch, -1);
+        std::copy_n(batch.viscous.begin(), response.size(), response.begin());
     });
     return highest;
 }
 
-template void add_viscous_force<2>(Batch<2>&, const KernelData<2>&, double*);
+template void add_viscous_force<2>(Batch<2>&, double);
+template double viscous_loss<2>(const Batch<2>&, int);
 template double highest_viscous_eigenvalue<2>(const std::shared_ptr<const Discretisation<2>>&);
 
 } // namespace softgrain

@@ -59,9 +59,9 @@ public:
         if (!assembly_) start();
         assembly_->evaluate_stretch(threads);
     }
-    /// Hands the fields back to the grains; the next step takes them in again.
     /// By viscosity in the last step [J/m].
     double dissipated() const { return assembly_->dissipated(); }
+    /// Hands the fields back to the grains; the next step takes them in again.
     void release() { assembly_.reset(); }
     /// Takes out each grain's place and velocity along x, as a guide along the y axis would.
     void guide()
