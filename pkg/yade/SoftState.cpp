@@ -5,6 +5,8 @@
 #include "SoftGrain.hpp"
 #include "SoftMat.hpp"
 
+#include "step/untangling.hpp"
+
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
@@ -307,6 +309,22 @@ Real SoftState::minJ()
     for (const auto& F : current().deformation_gradients())
         least = std::min(least, F.determinant());
     return least;
+}
+
+void SoftState::untangle(Real leastJ)
+{
+    softgrain::Grain<2>& mine = current();
+    if (mine.updated)
+        throw softgrain::UserError(
+            whose(mine.id)
+            + ": untangle() moves grid nodes, and the points of an updated-Lagrangian grain carry its "
+              "deformation; give its shape the formulation 'total'.");
+    if (touched()) heed();
+    softgrain::untangle(mine, leastJ);
+    mine.put();
+    known_.reset(); // what holds the grain takes it in anew
+    publish();
+    justPlaced = Omega::instance().getScene()->doSort = true;
 }
 
 Real SoftState::elasticEnergy() { return current().elastic_energy(); }

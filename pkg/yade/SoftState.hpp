@@ -69,6 +69,7 @@ public:
     Real minJ();
     Real elasticEnergy();
     Real kineticEnergy();
+    void untangle(Real leastJ);
 
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
             SoftState,
@@ -109,6 +110,14 @@ public:
                     .def("minJ", &SoftState::minJ, "Smallest volume ratio J = det F of a material point [-].")
                     .def("elasticEnergy", &SoftState::elasticEnergy, "Elastic energy [J/m].")
                     .def("kineticEnergy", &SoftState::kineticEnergy, "Kinetic energy, of deformation too [J/m].")
+                    .def("untangle",
+                         &SoftState::untangle,
+                         (boost::python::arg("leastJ") = 0.3),
+                         "Mends a state that no step can start from: moves the grid nodes of a total-Lagrangian grain little, until J is leastJ (0 to "
+                         "1) or more at all material points and the boundary does not cross itself; a sound grain stays as it is, and so do the centre "
+                         "of mass and the nodes' velocities. Smaller values move nodes less and leave more elastic energy; explicit steps want about "
+                         "0.5. Raises ValueError where the displacements are no numbers and for updated-Lagrangian grains. Barrier of Garanzha et al. "
+                         "2021; see doc/theory.md, section 7.")
                     .add_property("pos", &SoftState::position, &SoftState::setPosition, "Centre of mass [m]; setting it moves the grain as it is.")
                     .add_property(
                             "ori",

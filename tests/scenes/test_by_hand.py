@@ -3,6 +3,8 @@
 degrees of freedom, forces in O.forces, material; not orientation and shape."""
 import math
 import os
+import random
+import re
 import sys
 
 import numpy
@@ -315,5 +317,58 @@ def shape_and_orientation(checks):
     run(5)
 
 
-run_tests(position, velocity, saved_and_loaded, a_held_grain_goes_on_when_loaded, forces, blocked,
+def spoil(grain, amount):
+    """Moves the nodes of a grain of the scene at random [R], which a saved scene alone allows; loads it."""
+    generator = random.Random(1)
+    with Folder() as folder:
+        path = os.path.join(folder, "scene.xml")
+        O.save(path, quiet=True)
+        with open(path, encoding="utf-8") as file:
+            parts = re.split("(<nodeDisplacement.*?</nodeDisplacement>)", file.read(), flags=re.DOTALL)
+        parts[2 * grain + 1] = re.sub("<item>.*?</item>", lambda _: f"<item>{generator.uniform(-amount, amount)}</item>",
+                                      parts[2 * grain + 1])
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("".join(parts))
+        O.load(path, quiet=True)
+
+
+def untangled(checks):
+    def start():
+        scene(*[(3 * RADIUS * k, {"velocity": (0.1 * k, 0, 0)}) for k in range(9)], safety=0.1)
+        spoil(4, 1)
+        measures.softIntegrator().elasticEnergy()   # grains are in batches now
+        return O.bodies[4].state
+
+    state = start()
+    checks.that("points are turned inside out", state.minJ() < 0, state.minJ())
+    checks.raises("no step goes on", RuntimeError, ["#4", "inside out", "untangle()"], run)
+    state = start()
+    others = [arrays.points(body) for body in O.bodies if body.id != 4]
+    place, velocity, time = state.pos, state.vel, O.time
+    state.untangle(0.7)
+    checks.that("J is what was asked for", state.minJ() >= 0.7, state.minJ())
+    checks.close_to("the centre stays", (state.pos - place).norm(), 0, 1e-15)
+    checks.close_to("and its velocity", (state.vel - velocity).norm(), 0, 1e-14)
+    checks.close_to("others stay", max(abs(arrays.points(body) - points).max() for body, points in
+                                       zip([body for body in O.bodies if body.id != 4], others)), 0, 0)
+    soft = measures.softIntegrator()
+    whole = soft.kineticEnergy() + soft.elasticEnergy()
+    least = 1
+    for _ in range(300):
+        O.step()
+        least = min(least, soft.minJ())
+    checks.that("goes on without a point turned", least > 0.5, least)
+    checks.close_to("and without energy from nowhere", soft.kineticEnergy() + soft.elasticEnergy(), whole, 0.01 * whole)
+    checks.close_to("along its way", (state.pos - place - velocity * (O.time - time)).norm(), 0, 1e-9 * RADIUS)
+    points = arrays.points(O.bodies[3])
+    O.bodies[3].state.untangle()
+    checks.close_to("a sound grain stays", abs(arrays.points(O.bodies[3]) - points).max(), 0, 0)
+    for least in (0, -1, 1.1, NAN):
+        checks.raises(f"leastJ = {least}", ValueError, ["#3", "least J"], lambda: O.bodies[3].state.untangle(least))
+    checks.raises("an updated-Lagrangian grain", ValueError, ["#0", "total"],
+                  lambda: scene((0, {"formulation": "updated"})).state.untangle())
+    checks.raises("a grain that runs nowhere", ValueError, ["O.bodies"], softDisc((0, 0), RADIUS, "gel").state.untangle)
+
+
+run_tests(untangled, position, velocity, saved_and_loaded, a_held_grain_goes_on_when_loaded, forces, blocked,
           driven_by_engines, materials, friction_of_a_contact, shape_and_orientation)

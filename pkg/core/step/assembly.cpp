@@ -25,7 +25,8 @@ namespace {
         throw SimulationError(whose(grain.id) + ": material point " + std::to_string(worst)
                               + " turned inside out (J = " + shown(F[worst].determinant())
                               + "); likely causes: a time step over the stable limit, grains pressed beyond what their "
-                                "resolution can follow, or an impact near the wave speed.");
+                                "resolution can follow, an impact near the wave speed, or a start from such points, which "
+                                "untangle() mends.");
     }
 
     template <int Dim> bool is_finite(const Grain<Dim>& grain)

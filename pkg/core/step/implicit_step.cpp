@@ -191,8 +191,8 @@ template <int Dim> void ImplicitStep<Dim>::begin(double dt, const Vec<Dim>& grav
     place_ = grains_.evaluate(1);
     if (const int inverted = grains_.turned_inside_out(); inverted >= 0)
         throw SimulationError("soft grain #" + std::to_string(assembly_.grains()[size_t(inverted)]->id)
-                              + ": some of its points are turned inside out at the start of the implicit step; start from "
-                                "less deformation.");
+                              + ": some of its points are turned inside out at the start of the implicit step; untangle() "
+                                "it, or start from less deformation.");
     grains_.settle();
     look_or_locate(dt);
     sorted_ = false;
