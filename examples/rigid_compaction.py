@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The packing of compaction.py with YADE's own rigid discs: where does it jam, and what is it up to there?
+"""The packing of compaction.py with rigid discs: where does it jam, and what is it up to there?
 
     yade -n -x examples/rigid_compaction.py [options]          --help lists them
 
@@ -7,8 +7,9 @@
       +-----+-----+         YADE's spheres kept in the plane, with the mass and moment of inertia of discs of unit
       | o  O o  O |         thickness, so that forces and energies are per metre as in compaction.py.
       |O o  O o  o|
-      | o O  o O  |         Cundall-Strack:  F_n = k_n overlap,  |F_t| <= mu F_n,  and numerical damping, since
-      +-----------+                          rigid discs have no other way to lose their energy.
+      | o O  o O  |         --law yade, Cundall-Strack:  F_n = k_n overlap,  |F_t| <= mu F_n,  and numerical
+      +-----------+             damping, since these discs have no other way to lose their energy
+                            --law cd, Contact Dynamics as of soft grains: no overlap, no stiffness, no damping
 
 Rigid discs cannot pass random close packing: the run ends at --until or when the stress on the bottom wall exceeds
 --stress-limit. Writes the csv columns of compaction.py as far as they mean something (others: nan; the damping's work
@@ -27,6 +28,7 @@ from yade.utils import sphere
 
 QUICK = {"grains": 40}
 STEP = 0.1                  # time step [sqrt(mass of the smallest disc / stiffness)]
+CLOSED = 2e-3               # the same of Contact Dynamics, as the way of the wall [radius of the smallest disc]
 
 
 def read_options():
@@ -34,6 +36,9 @@ def read_options():
     scene = opt.add_packing(parser, until=0.86)
     scene.add_argument("--stress-limit", type=opt.positive, default=200e3, metavar="PA",
                        help="end when the mean stress on the bottom wall exceeds this")
+    scene.add_argument("--law", choices=("yade", "cd"), default="yade",
+                       help="of contacts: YADE's Cundall-Strack, or Contact Dynamics, which knows no stiffness and no damping")
+    scene.add_argument("--tolerance", type=opt.positive, default=1e-3, metavar="TAU", help="cd: of the contact solver")
     scene.add_argument("--stiffness", type=opt.positive, default=5e8, metavar="PA",
                        help="normal stiffness of a contact per metre of thickness")
     scene.add_argument("--shear-ratio", type=opt.positive, default=0.5, metavar="K", help="shear over normal stiffness")
@@ -66,18 +71,30 @@ def make_scene(options):
     for side in sides:
         side.state.isDamped = False     # else YADE counts damping of the driven wall as dissipated
     _, _, bottom, top = O.bodies.append(sides)
-    limit = math.sqrt(options.density * math.pi * min(radii)**2 / options.stiffness)
+    # a pair of two grains rubs with --friction, of a grain and a wall with --wall-friction
+    angle = MatchMaker(matches=((discs, discs, math.atan(options.friction)),
+                                (discs, walls, math.atan(options.wall_friction))))
+    if options.law == "cd":
+        functors = rigidContacts()
+        functors[-2].frictAngle = angle
+        O.engines = softEngines(dt=options.dt or CLOSED * min(radii) / options.speed, tolerance=options.tolerance,
+                                functors=functors)
+    else:
+        O.engines = cundall_strack(options, min(radii), angle)
+    return {"width": width, "height": height, "bottom": bottom, "top": top}
+
+
+def cundall_strack(options, smallest, angle):
+    """Engines of YADE's law; smallest radius [m], friction angles of the pairs."""
+    limit = math.sqrt(options.density * math.pi * smallest**2 / options.stiffness)
     O.dt = options.dt or STEP * limit
     if O.dt > limit:
         raise InputError(f"--dt {options.dt:g} is over the stable limit, {limit:.3g} s for --stiffness "
                          f"{options.stiffness:g}: give less, or leave it away.")
     O.trackEnergy = True
-    # a pair of two grains rubs with --friction, of a grain and a wall with --wall-friction
-    angle = MatchMaker(matches=((discs, discs, math.atan(options.friction)),
-                                (discs, walls, math.atan(options.wall_friction))))
-    O.engines = [
+    return [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.05 * min(radii)),
+        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.05 * smallest),
         InteractionLoop(
             [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
             [Ip2_FrictMat_FrictMat_FrictPhys(kn=MatchMaker(algo="val", val=options.stiffness),
@@ -86,7 +103,6 @@ def make_scene(options):
             [Law2_ScGeom_FrictPhys_CundallStrack()]),
         NewtonIntegrator(damping=options.damping),
     ]
-    return {"width": width, "height": height, "bottom": bottom, "top": top}
 
 
 def check(result, options):

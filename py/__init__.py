@@ -10,7 +10,7 @@ from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
 import yade.wrapper  # noqa: E402
 
 from . import arrays, fclib, measures  # noqa: E402
-from .builders import discCloud, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
+from .builders import discCloud, rigidContacts, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
 from .checks import InputError  # noqa: E402
 
 __version__ = "0.1.0"
@@ -31,5 +31,5 @@ def _renew_dispatchers():
 
 _renew_dispatchers()
 
-__all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "rigidDisc", "softBox",
-           "softCloud", "softDisc", "softEngines", "softPolygon"]
+__all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "rigidContacts", "rigidDisc",
+           "softBox", "softCloud", "softDisc", "softEngines", "softPolygon"]

@@ -16,6 +16,7 @@ LEAST_POINTS = 16
 MOST_DISCS = 1000000    # of a cloud
 TOUCHING = 1e-9         # distance below which a corner lies on another edge [extent of the polygon]
 VERLET = 0.05       # distance that grains may move until the collider sorts again [radius of the smallest]
+AHEAD = 0.1         # gap at which rigid spheres become pairs [sum of their radii]
 
 
 def softDisc(center, radius, material=-1, points=None, angle=0.0, color=None, velocity=(0, 0, 0), spin=0.0, accuracy=None,
@@ -166,12 +167,13 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     dt            time step [s]; None: chosen, and adapted, by a SoftTimeStepper (explicit; implicit ones need it)
     safety        time step of the SoftTimeStepper [stable limit]; None: SAFETY, or by accuracy
     tolerance     of the contact solver [-]; None: TOLERANCE, or by accuracy; maxSweeps: most sweeps of it in a step
-    verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain
+    verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain, or else sphere
     friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
     wallFriction  the same between grains and other bodies
     more          engines to append (recorders, PyRunners)
     accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
-    functors      of rigid bodies among each other (Ig2, Ip2 and Law2, of YADE's laws); the time step has to suit them too
+    functors      of rigid bodies among each other: rigidContacts(), or Ig2, Ip2 and Law2 of YADE's laws, which the time step has
+                  to suit too
     integrator    "explicit" or "implicit"; theta, quasistatic: see SoftImplicitIntegrator
     Raises InputError, one sentence, on a value that makes no sense.
     """
@@ -203,8 +205,9 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         O.dt = positive("softEngines: dt", dt, "s")
         steppers = []
     if verletDist is None:
-        areas = [body.shape.area() for body in measures.softBodies()]
-        verletDist = VERLET * math.sqrt(min(areas, default=0.0) / math.pi)
+        radii = ([math.sqrt(body.shape.area() / math.pi) for body in measures.softBodies()]
+                 or [body.shape.radius for body in O.bodies if isinstance(body.shape, wrapper.Sphere)])
+        verletDist = VERLET * min(radii, default=0.0)
     else:
         verletDist = not_negative("softEngines: verletDist", verletDist, "m")
     if isinstance(more, wrapper.Engine) or not isinstance(more, (list, tuple)):
@@ -235,11 +238,25 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     ]
 
 
-def _friction(name, coefficient):
+def rigidContacts(friction=None):
+    """Functors for contacts of rigid bodies among each other by Contact Dynamics: softEngines(functors=rigidContacts()), with
+    soft grains or without any (give softEngines a dt then). Spheres, as discs in the xy-plane, meet spheres, walls, boxes
+    and facets; clumps of spheres count as bodies.
+
+    friction  Coulomb's coefficient [-]; None: from the materials' frictionAngle, the smaller of two, as YADE does
+    Raises InputError, one sentence, on a value that makes no sense.
+    """
+    return [wrapper.Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + AHEAD), wrapper.Ig2_Wall_Sphere_ScGeom(),
+            wrapper.Ig2_Box_Sphere_ScGeom(), wrapper.Ig2_Facet_Sphere_ScGeom(),
+            wrapper.Ip2_FrictMat_FrictMat_FrictPhys(**_friction("friction", friction, "rigidContacts")),
+            wrapper.Law2_ScGeom_FrictPhys_ContactDynamics()]
+
+
+def _friction(name, coefficient, function="softEngines"):
     """The attribute of an Ip2 functor that gives this coefficient whatever the materials say."""
     if coefficient is None:
         return {}
-    angle = math.atan(not_negative(f"softEngines: {name}", coefficient))
+    angle = math.atan(not_negative(f"{function}: {name}", coefficient))
     return {"frictAngle": wrapper.MatchMaker(algo="val", val=angle)}
 
 

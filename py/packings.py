@@ -74,7 +74,8 @@ class SoftPacking:
 
 
 class RigidPacking:
-    """All spheres of the scene, taken as discs of unit thickness; needs O.trackEnergy. `frictional` as of SoftPacking."""
+    """All spheres of the scene, taken as discs of unit thickness, with YADE's Cundall-Strack, which needs O.trackEnergy, or
+    with Contact Dynamics. `frictional` as of SoftPacking."""
 
     def __init__(self, frictional):
         self.frictional = frictional
@@ -82,8 +83,7 @@ class RigidPacking:
         self.ids = [body.id for body in self.bodies]
         self.radii = [body.shape.radius for body in self.bodies]
         self.points = len(self.bodies)
-        loop = next(engine for engine in O.engines if isinstance(engine, wrapper.InteractionLoop))
-        self.law = loop.lawDispatcher.functors[0]
+        self.integrator = next((engine for engine in O.engines if isinstance(engine, wrapper.SoftIntegrator)), None)
 
     def area(self):
         """Of the discs [m²]."""
@@ -96,19 +96,25 @@ class RigidPacking:
     def energies(self):
         """Energies now and dissipations since the start [J/m]: csv columns. That of YADE's numerical damping stands in
         contact_dissipation_J; external_work_J is summed by the loop."""
+        kinetic = {"kinetic_J": utils.kineticEnergy()}
+        if self.integrator:
+            return {**kinetic, "elastic_J": 0.0, "friction_J": self.integrator.frictionDissipation,
+                    "contact_dissipation_J": self.integrator.contactDissipation}
+        loop = next(engine for engine in O.engines if isinstance(engine, wrapper.InteractionLoop))
         tracked = dict(O.energy.items())
-        return {"kinetic_J": utils.kineticEnergy(), "elastic_J": self.law.elasticEnergy(),
+        return {**kinetic, "elastic_J": loop.lawDispatcher.functors[0].elasticEnergy(),
                 "friction_J": tracked.get("plastDissip", 0.0), "contact_dissipation_J": tracked.get("nonviscDamp", 0.0)}
 
     def solver(self):
         """The deepest overlap, over the radius of the smaller disc: csv columns."""
         deepest = max((i.geom.penetrationDepth / min(i.geom.refR1, i.geom.refR2 if i.geom.refR2 > 0 else i.geom.refR1)
                        for i in O.interactions), default=0.0)
-        return {"max_penetration_over_R": max(deepest, 0.0)}
+        residual = {"solver_residual": self.integrator.residual()} if self.integrator else {}
+        return {"max_penetration_over_R": max(deepest, 0.0), **residual}
 
     def total_sweeps(self):
-        """NaN: there is no solver."""
-        return math.nan
+        """Of the contact solver; NaN where there is none."""
+        return self.integrator.totalIterations if self.integrator else math.nan
 
     def stage_seconds(self):
         """Empty: there is no SoftIntegrator."""

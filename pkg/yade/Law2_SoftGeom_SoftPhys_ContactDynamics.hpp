@@ -3,6 +3,7 @@
 
 #include <core/Dispatching.hpp>
 
+#include "HandedOver.hpp"
 #include "SoftPairs.hpp"
 
 namespace yade {
@@ -11,7 +12,7 @@ class Law2_SoftGeom_SoftPhys_ContactDynamics : public LawFunctor {
 public:
     bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* interaction) override;
     /// Moves the pairs of a step to the end of `pairs`, in no certain order.
-    void handOver(long step, std::vector<TouchingPair>& pairs);
+    void handOver(long step, std::vector<TouchingPair>& pairs) { handed_.to(step, pairs); }
 
     FUNCTOR2D(SoftGeom, SoftPhys);
     YADE_CLASS_BASE_DOC_ATTRS_CTOR(
@@ -20,15 +21,10 @@ public:
             "Contact Dynamics (Moreau 1994; Jean 1999): Signorini's condition in velocities with the gap, 0 ≤ rₙ ⊥ uₙ + g/dt ≥ 0, and Coulomb's "
             "friction |rₜ| ≤ μ rₙ, without stiffness or damping. The functor hands each pair over with its local law; all contacts together are "
             "solved by :yref:`SoftIntegrator`.",
-            ,
-            byThread_.resize(std::max(omp_get_max_threads(), omp_get_num_procs())););
+            ,);
 
 private:
-    struct Handed {
-        long step = -1;
-        std::vector<TouchingPair> pairs;
-    };
-    std::vector<Handed> byThread_;
+    HandedOver<TouchingPair> handed_;
 };
 REGISTER_SERIALIZABLE(Law2_SoftGeom_SoftPhys_ContactDynamics);
 

@@ -20,6 +20,11 @@ void SoftImplicitIntegrator::advance(double dt)
     refuseUnknown();
     pairs_.collect(*scene, touchingPairs());
     refuseFree();
+    if (const auto rigid = rigidPairs(); !rigid.empty())
+        throw std::runtime_error(
+            "bodies #" + std::to_string(rigid[0].id1) + " and #" + std::to_string(rigid[0].id2)
+            + ": SoftImplicitIntegrator knows no contacts between rigid bodies; take SoftIntegrator, or "
+              "leave Law2_ScGeom_FrictPhys_ContactDynamics out.");
     if (fresh_) pairs_.refuseOverlaps();
     refuseStrangersNowAndThen();
     watch.stage(0);

@@ -2,6 +2,7 @@
 #include "SoftIntegrator.hpp"
 
 #include "Bytes.hpp"
+#include "Law2_ScGeom_FrictPhys_ContactDynamics.hpp"
 #include "Law2_SoftGeom_SoftPhys_ContactDynamics.hpp"
 #include "Problems.hpp"
 #include "SceneCheck.hpp"
@@ -33,6 +34,15 @@ int SoftIntegrator::threads() const
 void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 
 namespace {
+    /// Calls visit(functor) for every Law2 functor of this class.
+    template <class Law, class Visit> void eachLaw(const Scene& scene, const Visit& visit)
+    {
+        for (const auto& engine : scene.engines)
+            if (auto* loop = dynamic_cast<InteractionLoop*>(engine.get()))
+                for (const auto& functor : loop->lawDispatcher->functors)
+                    if (auto* law = dynamic_cast<Law*>(functor.get())) visit(*law);
+    }
+
     /// Python ends with the last owner of a body that a script has made, and wants its lock for it. Not to be called under
     /// guard_: a script may hold the one and wait for the other.
     void letGo(std::vector<shared_ptr<Body>>&& bodies)
@@ -56,7 +66,7 @@ void SoftIntegrator::action()
     Problems::raise();
     requireSaneAttributes();
     adopt();
-    if (soft_.states.empty()) return;
+    if (!assembly_) return;
     moved_ = scene->dt;
     requireStableStep();
     try {
@@ -75,6 +85,7 @@ void SoftIntegrator::advance(double dt)
     const double kick = lastStep > 0 ? (lastStep + dt) / 2 : dt;
 
     pairs_.collect(*scene, touchingPairs());
+    pairs_.rigid.collect(rigidPairs());
     pairs_.wantSurfaces();
     watch.stage(1);
 
@@ -103,6 +114,7 @@ void SoftIntegrator::advance(double dt)
     softgrain::Assembly<2>::account(pairs_.problem, balance);
     pairs_.load();
     pairs_.add(kick, 1);
+    pairs_.rigid.deliver(*scene, pairs_.problem, kick);
     pairs_.deliver(*scene);
     pairs_.moveFree(*scene, dt);
     const auto hold = [&](softgrain::Grain<2>& grain) {
@@ -203,7 +215,9 @@ void SoftIntegrator::adopt()
         known_.push_back({ body, body->state.get() });
         if (softStateOf(*body)) takeIn(body);
     }
-    if (soft_.states.empty()) return;
+    bool rigid = false; // bodies have contacts with each other
+    eachLaw<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, [&](auto&) { rigid = true; });
+    if (soft_.states.empty() && !rigid) return;
     for (const auto& body : *scene->bodies) {
         const std::string kind = body->shape ? body->shape->getClassName() : "";
         if ((kind == "Wall" || kind == "Box" || kind == "Sphere" || kind == "Facet") && !body->bound)
@@ -335,6 +349,7 @@ void SoftIntegrator::takeOver()
     }
     if (!taken) return;
     touchingPairs(); // of interactions that are new: all come again
+    rigidPairs();
     for (InteractionLoop* loop : loops)
         loop->action();
     Problems::raise();
@@ -344,11 +359,14 @@ void SoftIntegrator::takeOver()
 std::vector<TouchingPair> SoftIntegrator::touchingPairs() const
 {
     std::vector<TouchingPair> pairs;
-    for (const auto& engine : scene->engines)
-        if (auto* loop = dynamic_cast<InteractionLoop*>(engine.get()))
-            for (const auto& functor : loop->lawDispatcher->functors)
-                if (auto* law = dynamic_cast<Law2_SoftGeom_SoftPhys_ContactDynamics*>(functor.get()))
-                    law->handOver(scene->iter, pairs);
+    eachLaw<Law2_SoftGeom_SoftPhys_ContactDynamics>(*scene, [&](auto& law) { law.handOver(scene->iter, pairs); });
+    return pairs;
+}
+
+std::vector<RigidPair> SoftIntegrator::rigidPairs() const
+{
+    std::vector<RigidPair> pairs;
+    eachLaw<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, [&](auto& law) { law.handOver(scene->iter, pairs); });
     return pairs;
 }
 
@@ -363,7 +381,8 @@ void SoftIntegrator::evaluate()
     assembly_->evaluate_stretch(threads());
     evaluatedJ_ = minJ();
     evaluatedStep_ = scene->iter;
-    criticalStep = smallestCriticalStep_(assembly_->grains(), threads());
+    criticalStep = soft_.states.empty() ? std::numeric_limits<Real>::infinity()
+                                        : smallestCriticalStep_(assembly_->grains(), threads());
 }
 
 void SoftIntegrator::trackEnergies()

@@ -97,6 +97,7 @@ protected:
     virtual void requireStableStep();
     void refuseStrangersNowAndThen();
     std::vector<TouchingPair> touchingPairs() const;
+    std::vector<RigidPair> rigidPairs() const;
     void takeOver();
     virtual void trackEnergies();
     /// How long the velocities' time is before that of the displacements [s].

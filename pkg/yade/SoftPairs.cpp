@@ -73,6 +73,8 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
             problem.add(contact);
         }
     }
+    rigid.pose(scene, free_, problem, kick, recovery, moved);
+    deepest = std::max(deepest, rigid.deepest());
 }
 
 void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
@@ -201,6 +203,7 @@ boost::python::list SoftPairs::withForce() const
         touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint,
                                                   pair.phys->normalForce.normalized(), force));
     }
+    rigid.addWithForce(touching);
     return touching;
 }
 

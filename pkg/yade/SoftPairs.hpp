@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "FreeBodies.hpp"
+#include "RigidPairs.hpp"
 #include "SoftGeom.hpp"
 #include "SoftPhys.hpp"
 #include "SoftState.hpp"
@@ -40,10 +40,12 @@ public:
     {
         problem = {};
         pairs_.clear();
+        rigid.clear();
         free_.clear();
     }
 
     softgrain::ContactProblem<2> problem;
+    RigidPairs rigid; ///< pairs without a soft grain
     Real deepest = 0; ///< penetration of a contact point [radius of the smaller grain]
 
     struct Pair : TouchingPair {

@@ -38,6 +38,10 @@ void SoftTimeStepper::computeTimeStep(Scene* scene)
         }
     if (std::isnan(limit)) limit = firstStep(*scene);
     if (std::isnan(limit)) return;
+    if (std::isinf(limit))
+        throw std::runtime_error(
+            "SoftTimeStepper: no soft grain says how long a step may be; set O.dt, as by softEngines(dt=...), "
+            "and take SoftTimeStepper out of O.engines.");
     constexpr Real most = 0.3, kept = 0.9;
     const Real change = lastLimit > 0 ? std::min(std::abs(std::log(limit / lastLimit)), most) : 0;
     unrest = std::max(change, kept * unrest);

@@ -11,6 +11,7 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 #include <pkg/dem/FrictPhys.hpp>
+#include <pkg/dem/ScGeom.hpp>
 
 namespace yade::probe {
 
@@ -82,6 +83,8 @@ namespace {
     void interactions(Table& t)
     {
         CLASS(IGeom, 32, )
+        CLASS(GenericSpheresContact, 96, (normal)(contactPoint)(refR1)(refR2))
+        CLASS(ScGeom, 192, (penetrationDepth)(shearInc))
         CLASS(IPhys, 32, )
         CLASS(NormPhys, 64, (kn)(normalForce))
         CLASS(NormShearPhys, 96, (ks)(shearForce))

@@ -10,9 +10,10 @@ template <int Dim> struct RigidBody {
     static constexpr int spins = Dim * (Dim - 1) / 2, twists = Dim + spins;
     using Twist = Vec<twists>;
 
-    Vec<Dim> centre; ///< of mass [m], at the start of the step
-    Twist twist;     ///< velocity of the centre [m/s], then spin [rad/s]; the contact solver works on it
-    Twist before;    ///< at the start of the step
+    Vec<Dim> centre;            ///< of mass [m], at the start of the step
+    Twist twist;                ///< velocity of the centre [m/s], then spin [rad/s]; the contact solver works on it
+    Twist before;               ///< at the start of the step
+    Twist gain = Twist::Zero(); ///< while the contact solver is at work: further change of the twist, by soft bodies
     /// Change of the twist by a unit impulse at the centre and a unit angular impulse [1/kg], [1/(kg m²)]; 0 where motion is
     /// blocked.
     Mat<twists> mobility;

@@ -2,11 +2,13 @@
 #include "solver/nlgs.hpp"
 
 #include "solver/rigid_balance.hpp"
+#include "solver/rigid_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <typeinfo>
+#include <utility>
 
 namespace softgrain {
 namespace {
@@ -64,7 +66,9 @@ public:
         bodies_.assign(problem.bodies.size(), {});
         velocity_.clear();
         rigid_ = false;
+        among_rigid_.begin(problem);
         for (const auto& contact : problem.contacts) {
+            if (RigidContacts<Dim>::knows(problem, contact)) continue;
             take(contact.body);
             if (contact.other >= 0) take(contact.other);
         }
@@ -93,14 +97,12 @@ public:
         for (const Local<Dim>& local : group.locals)
             if (local.impulse != Vec<Dim>::Zero()) strike(group, local, local.impulse);
         for (Rigid& rigid : group.rigid) {
-            for (auto& [of, index, lever] : rigid.contacts) {
-                Local<Dim>& local = groups_[of].locals[index];
-                local.offset += lever * rigid.body->twist;
-                local.contact->free += lever * rigid.body->twist;
-            }
+            for (auto& [of, index, lever] : rigid.contacts)
+                groups_[of].locals[index].contact->free += lever * rigid.body->twist;
             settle(group, rigid);
         }
     }
+    void start_among_rigid() { among_rigid_.start(); }
 
     /// On the contacts of two bodies before those of the next.
     struct Effort {
@@ -120,10 +122,13 @@ public:
             settle(group, rigid);
     }
 
+    /// Treats the contacts that no soft body has a part in once.
+    void sweep_among_rigid(double share) { among_rigid_.sweep(share); }
+
     /// The last sweep changed the impulses by less than this, relative to their size.
     bool converged(double tolerance) const
     {
-        double change = 0, size = 0;
+        double change = among_rigid_.change, size = among_rigid_.size;
         for (const Group& group : groups_) {
             change += group.change;
             size += group.size;
@@ -140,7 +145,7 @@ public:
             }
         for (const Group& group : groups_)
             for (const Rigid& rigid : group.rigid) {
-                rigid.body->twist += rigid.gain;
+                rigid.body->twist += std::exchange(rigid.body->gain, RigidBody<Dim>::Twist::Zero());
                 for (const auto& [of, index, lever] : rigid.contacts) {
                     Contact<Dim>& contact = *groups_[of].locals[index].contact;
                     const auto along = (contact.normal.transpose() * lever).eval();
@@ -157,6 +162,7 @@ public:
                 for (int p = 0; p < surface.count; ++p)
                     surface.v(p) = surface.rigid->lever(surface.x(p)) * surface.rigid->twist;
         }
+        among_rigid_.finish();
     }
 
 private:
@@ -179,7 +185,7 @@ private:
             Eigen::Matrix<double, Dim, RigidBody<Dim>::twists> lever; ///< see RigidContact
         };
         RigidBody<Dim>* body;
-        typename RigidBody<Dim>::Twist gain; ///< by the impulses
+        typename RigidBody<Dim>::Twist seen; ///< by its contacts: their offsets know of it
         std::vector<Place> contacts;
     };
     /// What one thread treats in a phase.
@@ -237,6 +243,7 @@ private:
         };
         std::pair<int, int> last { -2, -2 };
         for (auto& contact : problem_->contacts) {
+            if (RigidContacts<Dim>::knows(*problem_, contact)) continue;
             Group& group = groups_[group_of(contact)];
             const std::pair<int, int> bodies = std::minmax(contact.body, contact.other);
             if (bodies != last) group.blocks.push_back({ group.locals.size(), 0, 0 });
@@ -404,17 +411,19 @@ private:
     {
         thread_local std::vector<RigidContact<Dim>> contacts;
         contacts.clear();
+        const auto struck = (rigid.body->twist - std::exchange(rigid.seen, rigid.body->twist)).eval();
         for (const auto& [of, index, lever] : rigid.contacts) {
-            const Local<Dim>& local = groups_[of].locals[index];
+            Local<Dim>& local = groups_[of].locals[index];
+            local.offset += lever * struck;
             contacts.push_back(
                 { local.law, local.normal, local.friction, local.inertia, lever, approach(local), local.impulse });
         }
-        const auto before = rigid.gain;
-        balance(*rigid.body, rigid.gain, contacts);
+        const auto before = rigid.body->gain;
+        balance(*rigid.body, rigid.body->gain, contacts);
         for (size_t i = 0; i < contacts.size(); ++i) {
             const auto& [of, index, lever] = rigid.contacts[i];
             Local<Dim>& local = groups_[of].locals[index];
-            local.offset += lever * (rigid.gain - before);
+            local.offset += lever * (rigid.body->gain - before);
             const Vec<Dim> step = contacts[i].impulse - local.impulse;
             if (step == Vec<Dim>::Zero()) continue;
             group.change += step.squaredNorm();
@@ -442,6 +451,7 @@ private:
     bool rigid_;                        ///< some bodies with contacts are rigid and moved by impulses
     std::vector<Group> groups_;         ///< phase after phase
     std::array<int, phases + 1> phase_; ///< first group of each phase
+    RigidContacts<Dim> among_rigid_;
 };
 
 template <int Dim>
@@ -477,6 +487,8 @@ template <int Dim> int NonlinearGaussSeidel<Dim>::solve(ContactProblem<Dim>& pro
 #pragma omp for schedule(static, 1)
             for (int g = 0; g < sweeper.groups(phase); ++g)
                 sweeper.start(phase, g);
+#pragma omp single
+        sweeper.start_among_rigid();
         while (!done) {
             for (int phase = 0; phase < Sweeper::phases; ++phase) {
                 if (sweeper.groups(phase) == 0) continue;
@@ -486,6 +498,7 @@ template <int Dim> int NonlinearGaussSeidel<Dim>::solve(ContactProblem<Dim>& pro
             }
 #pragma omp single
             {
+                sweeper.sweep_among_rigid(effort.share);
                 ++sweeps;
                 done = sweeps >= max_sweeps || sweeper.converged(tolerance * effort.share);
                 effort = sweeps < slow ? quick : sweeps < stuck ? thorough : careful;

@@ -288,7 +288,10 @@ template <int Dim> double Assembly<Dim>::dissipated() const
     return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0);
 }
 
-template <int Dim> double Assembly<Dim>::min_J() const { return *std::min_element(least_J_.begin(), least_J_.end()); }
+template <int Dim> double Assembly<Dim>::min_J() const
+{
+    return least_J_.empty() ? 1 : *std::min_element(least_J_.begin(), least_J_.end());
+}
 
 template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Visit& before, const Visit& after)
 {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "RigidPairs.hpp"
+
+namespace yade {
+
+void RigidPairs::collect(std::vector<RigidPair>&& pairs)
+{
+    pairs_ = std::move(pairs);
+    // the same order for every number of threads
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const auto& a, const auto& b) { return std::make_pair(a.id1, a.id2) < std::make_pair(b.id1, b.id2); });
+}
+
+void RigidPairs::pose(const Scene& scene, FreeBodies& free, softgrain::ContactProblem<2>& problem, double kick,
+                      Real recovery, Real moved)
+{
+    static const softgrain::SignoriniCoulomb<2> law;
+    deepest_ = 0;
+    contact_.clear();
+    for (const RigidPair& pair : pairs_) {
+        const auto &one = (*scene.bodies)[pair.id1], &two = (*scene.bodies)[pair.id2];
+        const auto mover1 = FreeBodies::mover(scene, one), mover2 = FreeBodies::mover(scene, two);
+        contact_.push_back(mover1 || mover2 ? int(problem.contacts.size()) : -1);
+        if (contact_.back() < 0) continue;
+        if (std::abs(pair.geom->normal[2]) > 1e-6)
+            throw std::runtime_error(
+                "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2)
+                + " touch at different z, and Law2_ScGeom_FrictPhys_ContactDynamics knows the xy-plane alone; "
+                  "put their centres at the same z.");
+        const softgrain::Vec<2> place = pair.geom->contactPoint.head<2>();
+        const auto side = [&](const shared_ptr<Body>& mover, const auto& twist, Body::id_t other) {
+            auto& surface = free.take(mover, twist, other, (*scene.bodies)[other]->state->pos[2], moved);
+            return std::make_pair(free.placeIn(problem, mover->id), surface.add(place));
+        };
+        softgrain::Contact<2> contact {};
+        const Real sign = mover2 ? 1 : -1; // the point is on body 2, if that moves
+        std::tie(contact.body, contact.point)
+            = mover2 ? side(mover2, pair.twist2, pair.id1) : side(mover1, pair.twist1, pair.id2);
+        contact.other = -1;
+        contact.weight[0] = 1;
+        if (mover1 && mover2)
+            std::tie(contact.other, contact.vertex[0]) = side(mover1, pair.twist1, pair.id2);
+        else {
+            const State& fixed = *(mover1 ? two : one)->state;
+            contact.drive = (fixed.vel + fixed.angVel.cross(pair.geom->contactPoint - fixed.pos)).head<2>();
+        }
+        contact.normal = (sign * pair.geom->normal).head<2>();
+        const Real gap = -pair.geom->penetrationDepth;
+        deepest_ = std::max(deepest_, -gap / std::min(pair.geom->refR1, pair.geom->refR2));
+        contact.gap_speed = (gap > 0 ? gap : recovery * gap) / scene.dt;
+        contact.friction = pair.phys->tangensOfFrictionAngle;
+        contact.law = &law;
+        contact.impulse = sign * kick * (pair.phys->normalForce + pair.phys->shearForce).head<2>();
+        problem.contacts.push_back(contact);
+    }
+}
+
+void RigidPairs::deliver(Scene& scene, const softgrain::ContactProblem<2>& problem, double kick)
+{
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+        const RigidPair& pair = pairs_[i];
+        Vector3r force = Vector3r::Zero();
+        if (contact_[i] >= 0) {
+            const auto& contact = problem.contacts[size_t(contact_[i])];
+            const Real sign = contact.normal.dot(pair.geom->normal.head<2>());
+            force.head<2>() = sign / kick * contact.impulse;
+        }
+        pair.phys->normalForce = force.dot(pair.geom->normal) * pair.geom->normal;
+        pair.phys->shearForce = force - pair.phys->normalForce;
+        for (const auto& [id, part] : { std::make_pair(pair.id1, Vector3r(-force)), std::make_pair(pair.id2, force) }) {
+            scene.forces.addForce(id, part);
+            scene.forces.addTorque(id, (pair.geom->contactPoint - (*scene.bodies)[id]->state->pos).cross(part));
+        }
+    }
+}
+
+void RigidPairs::addWithForce(boost::python::list& touching) const
+{
+    for (const RigidPair& pair : pairs_)
+        if (pair.phys->normalForce.squaredNorm() > 0)
+            touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.geom->contactPoint, pair.geom->normal,
+                                                      Vector3r(pair.phys->normalForce + pair.phys->shearForce)));
+}
+
+} // namespace yade
