@@ -50,6 +50,12 @@ def pressures(body):
     return -numpy.trace(cauchyStresses(body), axis1=1, axis2=2) / 3
 
 
+def plasticStrains(body):
+    """Plastic strains that have gathered at the material points [-], shape (points,): the integral of the rate
+    sqrt(2/3) |D_p|; 0 where the material has no plasticity."""
+    return _array(_state(body).plasticStrains())
+
+
 def outline(body):
     """Current boundary, counter-clockwise [m], shape (surface points, 2)."""
     return _array(_state(body).outline(), 2)

@@ -130,9 +130,13 @@ def refuse_nothing_to_press(options):
 def add_material(parser):
     """The options of which make_material makes a material."""
     group = parser.add_argument_group("the material of the grains")
-    group.add_argument("--material", choices=("nh", "mr"), default="nh", help="Neo-Hookean or Mooney-Rivlin")
-    group.add_argument("--lambda", type=finite, default=61e6, dest="lambda_", metavar="PA", help="Neo-Hookean, Pa")
-    group.add_argument("--mu", type=positive, default=1.26e6, metavar="PA", help="Neo-Hookean, Pa")
+    group.add_argument("--material", choices=("nh", "mr", "plastic"), default="nh",
+                       help="Neo-Hookean, Mooney-Rivlin or elastoplastic")
+    group.add_argument("--lambda", type=finite, default=61e6, dest="lambda_", metavar="PA",
+                       help="Neo-Hookean and elastoplastic, Pa")
+    group.add_argument("--mu", type=positive, default=1.26e6, metavar="PA", help="Neo-Hookean and elastoplastic, Pa")
+    group.add_argument("--yield-stress", type=positive, default=0.1e6, metavar="PA", help="elastoplastic, Pa")
+    group.add_argument("--hardening", type=not_negative, default=0.0, metavar="PA", help="elastoplastic, Pa")
     group.add_argument("--c1", type=finite, default=0.63e6, metavar="PA", help="Mooney-Rivlin, Pa")
     group.add_argument("--c2", type=finite, default=-0.0012e6, metavar="PA", help="Mooney-Rivlin, Pa")
     group.add_argument("-c", "--c", type=positive, default=6e6, metavar="PA",
@@ -146,6 +150,9 @@ def make_material(options):
     common = {"density": options.density, "viscosity": options.viscosity, "label": "grains"}
     if options.material == "nh":
         return wrapper.NeoHookeanMat(lambda_=options.lambda_, mu=options.mu, **common)
+    if options.material == "plastic":
+        return wrapper.PlasticMat(lambda_=options.lambda_, mu=options.mu, yieldStress=options.yield_stress,
+                                  hardening=options.hardening, **common)
     return wrapper.MooneyRivlinMat(c1=options.c1, c2=options.c2, c=options.c, **common)
 
 
@@ -225,9 +232,9 @@ def _explicit_step():
 
 def _wave_modulus(material):
     """lambda + 2 mu at small strains [Pa]."""
-    if isinstance(material, wrapper.NeoHookeanMat):
-        return material.lambda_ + 2 * material.mu
-    return 2 * material.c + 4 * material.c2 + 4 * (material.c1 + material.c2)
+    if isinstance(material, wrapper.MooneyRivlinMat):
+        return 2 * material.c + 4 * material.c2 + 4 * (material.c1 + material.c2)
+    return material.lambda_ + 2 * material.mu
 
 
 def command_line():

@@ -23,6 +23,7 @@ class SoftPacking:
         self.integrator = measures.softIntegrator()
         self.points = measures.pointTotal()
         self.viscous = any(body.mat.viscosity > 0 for body in self.bodies)
+        self.plastic = any(isinstance(body.mat, wrapper.PlasticMat) for body in self.bodies)
 
     def area(self):
         """Current area of the grains [m²]."""
@@ -39,6 +40,7 @@ class SoftPacking:
                 "external_work_J": soft.externalWork, "friction_J": soft.frictionDissipation,
                 "contact_dissipation_J": soft.contactDissipation,
                 **({"viscous_dissipation_J": soft.viscousDissipation} if self.viscous else {}),
+                **({"plastic_dissipation_J": soft.plasticDissipation} if self.plastic else {}),
                 **({"numerical_dissipation_J": soft.numericalDissipation} if self._implicit() else {})}
 
     def solver(self):

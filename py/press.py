@@ -17,14 +17,15 @@ OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
 COLUMNS = ("time_s,strain,solid_fraction,log_volume_change,stress_bottom_Pa,stress_top_Pa,coordination,rattlers,"
            "contacts,kinetic_J,elastic_J,external_work_J,friction_J,contact_dissipation_J,energy_residual_J,min_J,"
            "max_penetration_over_R,solver_iterations,solver_residual,dt_s,cpu_s").split(",")
-VISCOUS_COLUMNS = ["viscous_dissipation_J"]
+VISCOUS_COLUMNS, PLASTIC_COLUMNS = ["viscous_dissipation_J"], ["plastic_dissipation_J"]
 IMPLICIT_COLUMNS = "numerical_dissipation_J,contact_distance_over_R,substeps,cut_steps".split(",")
 
 
 def columns_of(options):
     """Columns of the csv for the integrator and the material that were chosen."""
     return (COLUMNS + (IMPLICIT_COLUMNS if options.integrator == "implicit" else [])
-            + (VISCOUS_COLUMNS if options.viscosity > 0 else []))
+            + (VISCOUS_COLUMNS if options.viscosity > 0 else [])
+            + (PLASTIC_COLUMNS if options.material == "plastic" else []))
 
 
 def implicit_step(box, speed):
@@ -100,9 +101,8 @@ class Press:
         mean_area, mean_height = (area + memory["area"]) / 2, (height + memory["h"]) / 2
         memory["work"] += self.forces.impulse("top") * self.speed
         energies = {"external_work_J": memory["work"], **packing.energies()}
-        balance = (self._stored_energy(energies) - memory["energy0"] + energies["friction_J"]
-                   + energies["contact_dissipation_J"] + energies.get("numerical_dissipation_J", 0.0)
-                   + energies.get("viscous_dissipation_J", 0.0)
+        dissipated = sum(value for name, value in energies.items() if name.endswith("_dissipation_J"))
+        balance = (self._stored_energy(energies) - memory["energy0"] + energies["friction_J"] + dissipated
                    - energies["external_work_J"])
         solver = packing.solver()
         solver["max_penetration_over_R"] = max(solver["max_penetration_over_R"], memory["middle"]["penetration"])

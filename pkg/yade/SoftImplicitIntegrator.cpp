@@ -92,6 +92,7 @@ void SoftImplicitIntegrator::take(double dt, double whole, const softgrain::Impl
         state.justPlaced = false;
         loads_.work(place, Vector3r(way[0], way[1], dt * state.angVel[2]));
     });
+    countDissipation();
 }
 
 /// Runs collider and interaction loop within the step: grains have left the room that the collider looked at.

@@ -132,7 +132,7 @@ void SoftIntegrator::advance(double dt)
             state->justPlaced = false;
     frictionDissipation += balance.friction;
     contactDissipation += balance.contact_dissipation;
-    viscousDissipation += assembly_->dissipated();
+    countDissipation();
     externalWork += balance.external_work + loads_.takeWork();
     if (scene->iter % checkInterval == 0) {
         requireSoftEngines(*scene);
@@ -143,6 +143,13 @@ void SoftIntegrator::advance(double dt)
     if (evaluatedStep_ == scene->iter) refuseCollapse();
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
+}
+
+void SoftIntegrator::countDissipation()
+{
+    const auto dissipated = assembly_->dissipated();
+    viscousDissipation += dissipated.viscous;
+    plasticDissipation += dissipated.plastic;
 }
 
 /// The stable step shrinks with the smallest stretch: without end, the run would seem to hang. A boundary that has folded over
@@ -393,6 +400,7 @@ void SoftIntegrator::trackEnergies()
     energy.set(frictionDissipation, "softFriction", frictionId_);
     energy.set(contactDissipation, "softContact", contactId_);
     if (viscousDissipation > 0) energy.set(viscousDissipation, "softViscous", viscousId_);
+    if (plasticDissipation > 0) energy.set(plasticDissipation, "softPlastic", plasticId_);
     energy.set(-externalWork, "softExternalWork", workId_);
 }
 

@@ -58,6 +58,7 @@ public:
                     (Real, externalWork, 0, Attr::readonly, "Work on the grains since the start [J/m]: of rigid bodies, gravity, O.forces, blocked degrees of freedom, and of velocities set by hand."))(
                     (Real, frictionDissipation, 0, Attr::readonly, "Energy dissipated by friction since the start [J/m]."))(
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
+                    (Real, plasticDissipation, 0, Attr::readonly, "Energy dissipated by plastic flow in the grains since the start, the work of hardening included [J/m]."))(
                     (Real, viscousDissipation, 0, Attr::readonly, "Energy dissipated by the viscosity of the grains since the start [J/m]."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
                     (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
@@ -95,6 +96,8 @@ protected:
     virtual void advance(double dt);
     virtual void requireSaneAttributes() const;
     virtual void requireStableStep();
+    /// Adds what the grains have dissipated in themselves in a step of the assembly.
+    void countDissipation();
     void refuseStrangersNowAndThen();
     std::vector<TouchingPair> touchingPairs() const;
     std::vector<RigidPair> rigidPairs() const;
@@ -127,7 +130,7 @@ private:
     size_t interactionCount_ = 0;        ///< in the last step
     Real evaluatedJ_ = 1;                ///< smallest J when the stable step was evaluated
     long evaluatedStep_ = -1;            ///< and the step of it
-    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, workId_ = -1;
+    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, plasticId_ = -1, workId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);
 

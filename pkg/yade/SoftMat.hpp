@@ -16,6 +16,7 @@ namespace yade {
 //     SoftMat
 //       NeoHookeanMat
 //       MooneyRivlinMat
+//       PlasticMat
 class SoftMat : public FrictMat {
 public:
     /// Name of the law in the core; the parameters go in the order that the law names them.
@@ -30,7 +31,7 @@ public:
     YADE_CLASS_BASE_DOC_ATTRS_CTOR(
             SoftMat,
             FrictMat,
-            "Base of the materials of soft grains: hyperelastic, plane strain. :yref:`density<Material.density>` [kg/m³] is that of the "
+            "Base of the materials of soft grains: plane strain. :yref:`density<Material.density>` [kg/m³] is that of the "
             "undeformed grain; :yref:`frictionAngle<FrictMat.frictionAngle>` [rad] gives Coulomb's coefficient tan(angle) of a contact, the "
             "smaller of the two bodies' angles counting, as YADE does. Moduli, density and viscosity can be changed at any time; a changed angle counts "
             "for contacts that come after, as in YADE, and SoftPhys.tangensOfFrictionAngle is that of a contact there is. young and poisson are not used.",

@@ -35,7 +35,8 @@ namespace {
     {
         const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
         if (!material)
-            throw softgrain::UserError(whose(body.id) + ": its material has to be a NeoHookeanMat or a MooneyRivlinMat.");
+            throw softgrain::UserError(whose(body.id)
+                                       + ": its material has to be a NeoHookeanMat, a MooneyRivlinMat or a PlasticMat.");
         try {
             grain.law = &material->law();
         } catch (const softgrain::UserError& error) {
@@ -44,6 +45,9 @@ namespace {
         grain.parameters = material->lawParameters();
         grain.density = material->density;
         grain.viscosity = material->viscosity;
+        if (grain.updated && grain.law->memory_count > 0)
+            throw softgrain::UserError(whose(body.id) + ": the plasticity of its material, a " + material->getClassName()
+                                       + ", is not known to formulation='updated'; take formulation='total'.");
         if (grain.viscosity > 0 && grain.updated)
             throw softgrain::UserError(whose(body.id) + ": the viscosity of its material, "
                                        + softgrain::shown(grain.viscosity)
@@ -128,8 +132,10 @@ bool SoftState::takeSaved(softgrain::Grain<2>& fresh) const
     }
     fresh.displacement = nodeDisplacement;
     fresh.velocity = nodeVelocity;
+    fresh.memory = pointMemory;
     const size_t expected = 2 * size_t(fresh.mesh->master_count);
-    return nodeDisplacement.size() == expected && nodeVelocity.size() == expected;
+    return nodeDisplacement.size() == expected && nodeVelocity.size() == expected
+        && pointMemory.size() == size_t(fresh.mesh->point_count()) * fresh.law->memory_count;
 }
 
 bool SoftState::outdated(const Body& body) const
@@ -148,7 +154,9 @@ bool SoftState::outdated(const Body& body) const
 
 void SoftState::renew(const Body& body)
 {
+    const auto* law = grain.law;
     takeMaterial(body, grain);
+    if (grain.law != law) grain.forget();
     known_ = body.material;
     mass = grain.mass();
     grain.refresh();
@@ -271,6 +279,7 @@ void SoftState::preSave(SoftState&)
     grain.pull();
     nodeDisplacement = grain.displacement;
     nodeVelocity = grain.velocity;
+    pointMemory = grain.memory;
     if (grain.updated) pointState = grain.updated->packed();
     travel = grain.surface.travel;
     ahead = grain.surface.ahead;
@@ -280,6 +289,7 @@ boost::python::object SoftState::pointPositions() { return flattened(current().p
 boost::python::object SoftState::pointVelocities() { return flattened(current().point_velocities()); }
 boost::python::object SoftState::deformationGradients() { return flattened(current().deformation_gradients()); }
 boost::python::object SoftState::cauchyStress() { return flattened(current().cauchy_stresses()); }
+boost::python::object SoftState::plasticStrains() { return asBytes(current().plastic_strains()); }
 boost::python::object SoftState::outline()
 {
     current();

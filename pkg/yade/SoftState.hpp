@@ -64,6 +64,7 @@ public:
     boost::python::object pointVolumes();
     boost::python::object deformationGradients();
     boost::python::object cauchyStress();
+    boost::python::object plasticStrains();
     boost::python::object outline();
     Real area();
     Real minJ();
@@ -81,6 +82,7 @@ public:
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(
+                    (vector<Real>, pointMemory, , Attr::hidden, "What the points of a material with plasticity remember, [point][number]."))(
                     (vector<Real>,
                      pointState,
                      ,
@@ -105,6 +107,9 @@ public:
                     .def("pointVolumes", &SoftState::pointVolumes, "Reference areas of the material points, (points,) [m²].")
                     .def("deformationGradients", &SoftState::deformationGradients, "F at the material points, (points, 2, 2) [-].")
                     .def("cauchyStress", &SoftState::cauchyStress, "Cauchy stress at the material points, (points, 3, 3) [Pa].")
+                    .def("plasticStrains",
+                         &SoftState::plasticStrains,
+                         "Plastic strains that have gathered at the material points, (points,) [-]; 0 where the material has no plasticity.")
                     .def("outline", &SoftState::outline, "Current surface points, counter-clockwise, (surface points, 2) [m].")
                     .def("area", &SoftState::area, "Current area [m²].")
                     .def("minJ", &SoftState::minJ, "Smallest volume ratio J = det F of a material point [-].")

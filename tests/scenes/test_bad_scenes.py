@@ -18,8 +18,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import Folder, is_sentence, run_tests  # noqa: E402
 from softgrain import (Bo1_SoftGrain_Aabb, Ig2_Box_SoftGrain_SoftGeom, Ig2_SoftGrain_SoftGrain_SoftGeom,  # noqa: E402
                        Ig2_Wall_SoftGrain_SoftGeom, Ip2_FrictMat_SoftMat_SoftPhys, Ip2_SoftMat_SoftMat_SoftPhys,
-                       Law2_SoftGeom_SoftPhys_ContactDynamics, MooneyRivlinMat, NeoHookeanMat, SoftGrain, SoftMat,
-                       SoftState, measures, softDisc, softEngines, softPolygon)
+                       Law2_SoftGeom_SoftPhys_ContactDynamics, MooneyRivlinMat, NeoHookeanMat, PlasticMat, SoftGrain,
+                       SoftMat, SoftState, measures, softDisc, softEngines, softPolygon)
 
 NAN, INFINITE = math.nan, math.inf
 STEPS = 400
@@ -84,6 +84,9 @@ MATERIALS = [
     ("friction angle over a right angle", disc_of(NeoHookeanMat(frictionAngle=2)), ["frictionAngle", "2"]),
     ("viscosity below zero", disc_of(NeoHookeanMat(viscosity=-0.5)), ["#0", "viscosity", "-0.5"]),
     ("viscosity NaN", disc_of(NeoHookeanMat(viscosity=NAN)), ["#0", "viscosity", "nan"]),
+    ("yield stress not given", disc_of(PlasticMat()), ["#0", "yieldStress", "nan"]),
+    ("yield stress below zero", disc_of(PlasticMat(yieldStress=-1e4)), ["#0", "yieldStress", "-1"]),
+    ("hardening below zero", disc_of(PlasticMat(yieldStress=1e4, hardening=-1e5)), ["#0", "hardening", "-1"]),
     ("the base of the materials", disc_of(SoftMat()), ["SoftMat", "NeoHookeanMat"]),
     ("a label helps to find it", disc_of(NeoHookeanMat(mu=-1, label="jelly")), ["jelly"]),
 ]

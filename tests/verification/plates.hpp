@@ -58,11 +58,13 @@ inline Squeeze squeeze(const SqueezeCase& c)
     double dt = 0.6 * critical_step(world.grains[0], unit);
     Squeeze result;
     double force = 0, between = 0, place = 0, next = c.window;
+    double dissipated = 0; // in the grains
     int count = 0;
     const auto squeeze_now = [&] { return 1 - world.planes[1].position / half; };
     while (squeeze_now() < c.until + c.window / 2) {
         const double before = squeeze_now();
         world.step(dt);
+        dissipated += world.dissipated().plastic;
         // two discs on each other are unstable: without friction one slides off the other, at a rate of sqrt(F / m R)
         if (c.discs > 1 && world.steps % 5 == 0) world.guide();
         force += (world.plane_force[1].y() - world.plane_force[0].y()) / 2;
@@ -92,7 +94,7 @@ inline Squeeze squeeze(const SqueezeCase& c)
         count = 0;
         next += c.window;
     }
-    const double total = world.energy() + world.balance.contact_dissipation;
+    const double total = world.energy() + world.balance.contact_dissipation + dissipated;
     result.residual = total / world.balance.external_work - 1;
     result.steps = world.steps;
     return result;

@@ -85,4 +85,22 @@ template <class T> SOFTGRAIN_INLINE T logarithm(const T& x)
 
 template <> SOFTGRAIN_INLINE double logarithm(const double& x) { return std::log(x); }
 
+/// Exponential of numbers between -700 and 700, good to 2 units in the last place.
+///
+/// exp x = 2^n exp r, n the integer nearest to x / ln 2, so that |r| <= ln 2 / 2, by its series.
+template <class T> SOFTGRAIN_INLINE T exponential(const T& x)
+{
+    using Bits = typename Lanes<lane_count<T>>::Bits;
+    const T shifted = x * 1.44269504088896340736 + 6755399441055744.0; // holds n in its last bits
+    const T n = shifted - 6755399441055744.0;
+    const T r = (x - n * 0.693147180369123816490) - n * 1.90821492927058770002e-10;
+    T p = T {} + 1.0 / 6227020800;
+    for (double inverse : { 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720,
+                            1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0 })
+        p = p * r + inverse;
+    return p * (T)(((Bits)shifted + 1023) << 52);
+}
+
+template <> SOFTGRAIN_INLINE double exponential(const double& x) { return std::exp(x); }
+
 } // namespace softgrain

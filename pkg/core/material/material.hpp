@@ -20,6 +20,10 @@
 //     plane_tangent     d2w/dF2 in the plane [Pa], given 1/J too
 //     wave_modulus      lambda + 2 mu of the small-strain limit [Pa]
 //     complaint         why the constants give an unstable energy, or ""
+//     memory            first values of what a point remembers; the functions above find it behind the constants in p. Its
+//                       last number is the plastic strain that has gathered. None: what follows is not there
+//     advance           makes a point remember the end of a step at F, in p; returns what was dissipated [J/m3]
+//     elastic           constants with which nothing of that happens
 #pragma once
 
 #include "base/tensor.hpp"

@@ -11,6 +11,7 @@ namespace softgrain {
 struct MooneyRivlin {
     static constexpr const char* name = "Mooney-Rivlin";
     static constexpr std::array<const char*, 3> parameters { "c1", "c2", "c" };
+    static constexpr std::array<double, 0> memory {};
 
     template <class T> static SOFTGRAIN_INLINE T volumetric_energy(const T* p, const T& J)
     {

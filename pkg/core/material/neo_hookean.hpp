@@ -10,6 +10,7 @@ namespace softgrain {
 struct NeoHookean {
     static constexpr const char* name = "Neo-Hookean";
     static constexpr std::array<const char*, 2> parameters { "lambda", "mu" };
+    static constexpr std::array<double, 0> memory {};
 
     template <class T> static SOFTGRAIN_INLINE T volumetric_energy(const T* p, const T& J)
     {

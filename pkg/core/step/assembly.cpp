@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace softgrain {
@@ -172,7 +171,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
         }
     for (int b = 0; b < batch_count(); ++b)
         asleep_.push_back(is_at_rest(b));
-    dissipated_.assign(batches_.size(), 0);
+    dissipated_.resize(batches_.size());
 }
 
 template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> group)
@@ -191,6 +190,7 @@ template <int Dim> void Assembly<Dim>::put_in_batches(std::vector<Grain<Dim>*> g
             if (grain.viscosity > 0) batch->set_viscosity(lane, grain.viscosity);
             if (spare) continue;
             grain.pull();
+            batch->set_memory(lane, grain.memory);
             for (size_t i = 0; i < grain.displacement.size(); ++i) {
                 batch->displacement[i * lanes + lane] = grain.displacement[i];
                 batch->velocity[i * lanes + lane] = grain.velocity[i];
@@ -247,7 +247,7 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
         double least = 1;
         if (!batch.viscosity.empty()) {
             add_viscous_force(batch, dt);
-            dissipated_[b] = viscous_loss(b) / 2;
+            dissipated_[b].viscous = viscous_loss(b) / 2;
         }
         for (size_t lane = 0; lane < members_[b].size(); ++lane) {
             Grain<Dim>& grain = *members_[b][lane];
@@ -283,9 +283,25 @@ template <int Dim> double Assembly<Dim>::viscous_loss(int b) const
     return sum;
 }
 
-template <int Dim> double Assembly<Dim>::dissipated() const
+/// The points of a batch remember the end of the step; what was dissipated [J].
+template <int Dim> double Assembly<Dim>::advance_memory(int b)
 {
-    return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0);
+    Batch<Dim>& batch = *batches_[b];
+    batch.law.advance[batch.wide()](batch.data(), batch.per_lane.data());
+    double sum = 0;
+    for (size_t lane = 0; lane < members_[b].size(); ++lane)
+        sum += std::pow(members_[b][lane]->radius, Dim) * batch.per_lane[lane];
+    return sum;
+}
+
+template <int Dim> typename Assembly<Dim>::Dissipation Assembly<Dim>::dissipated() const
+{
+    Dissipation sum;
+    for (const Dissipation& of_batch : dissipated_) {
+        sum.viscous += of_batch.viscous;
+        sum.plastic += of_batch.plastic;
+    }
+    return sum;
 }
 
 template <int Dim> double Assembly<Dim>::min_J() const
@@ -322,7 +338,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
             }
             kernels.push[batch.wide()](batch.data(), batch.extent.data());
         }
-        if (!batch.viscosity.empty()) dissipated_[b] += viscous_loss(b) / 2;
+        if (!batch.viscosity.empty()) dissipated_[b].viscous += viscous_loss(b) / 2;
         kernels.drift[batch.wide()](batch.data(), dt);
         sound[b] = observe(b, dt, after);
         for (const Grain<Dim>* grain : members_[b])
@@ -376,6 +392,7 @@ template <int Dim> bool Assembly<Dim>::observe(int b, double dt, const Visit& af
     const int lanes = batch.lanes;
     bool sound = true;
     motion_kernels<Dim>().observe[batch.wide()](batch.data(), batch.sums.data(), batch.extent.data());
+    if (batch.law.memory_count > 0) dissipated_[b].plastic = advance_memory(b);
     hand_out(b, &Surface<Dim>::position);
     for (size_t lane = 0; lane < members_[b].size(); ++lane) {
         Grain<Dim>& grain = *members_[b][lane];

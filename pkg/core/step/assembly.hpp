@@ -42,8 +42,11 @@ public:
     /// Takes nodes that another scheme has moved, with their velocities: smallest J, surfaces and motions. `after` and
     /// errors as in correct.
     void renew(double dt, int threads, const Visit& after = {});
-    /// By viscosity in the last step [J].
-    double dissipated() const;
+    /// In the grains in the last step [J].
+    struct Dissipation {
+        double viscous = 0, plastic = 0;
+    };
+    Dissipation dissipated() const;
     /// Smallest J of a material point at the last predict or renew, 1 at most.
     double min_J() const;
     /// Work of the solved contacts over the step, with the mean of the velocities before and after it.
@@ -66,6 +69,7 @@ private:
     void put_in_batches(std::vector<Grain<Dim>*> group);
     bool is_at_rest(int b);
     double viscous_loss(int b) const;
+    double advance_memory(int b);
     bool observe(int b, double dt, const Visit& after);
     void hand_out(int b, std::vector<double> Surface<Dim>::*field);
     void report_unsound(const std::vector<char>& sound, double dt);
@@ -75,9 +79,9 @@ private:
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
     std::vector<Grain<Dim>*> updated_;
-    std::vector<double> least_J_;    ///< of each batch, then of each updated-Lagrangian grain
-    std::vector<double> dissipated_; ///< of each batch by viscosity, in the last step
-    std::vector<char> asleep_;       ///< of each batch: at rest since it is here
+    std::vector<double> least_J_;         ///< of each batch, then of each updated-Lagrangian grain
+    std::vector<Dissipation> dissipated_; ///< of each batch, in the last step
+    std::vector<char> asleep_;            ///< of each batch: at rest since it is here
 };
 
 extern template class Assembly<2>;

@@ -26,6 +26,10 @@ Batch<Dim>::Batch(std::shared_ptr<const Discretisation<Dim>> mesh_, const LawKer
     , gain(size_t(Dim) * lanes)
     , per_lane(2 * size_t(lanes))
 {
+    memory.reserve(size_t(mesh->point_count()) * law.memory_count * lanes);
+    for (int p = 0; p < mesh->point_count(); ++p)
+        for (int k = 0; k < law.memory_count; ++k)
+            memory.insert(memory.end(), lanes, law.first_memory[k]);
 }
 
 template <int Dim> double* Batch<Dim>::surface()
@@ -63,7 +67,8 @@ template <int Dim> KernelData<Dim> Batch<Dim>::data()
              force(),
              surface(),
              parameters.data(),
-             inverse_inertia.data() };
+             inverse_inertia.data(),
+             memory.data() };
 }
 
 template class Batch<2>;

@@ -37,6 +37,7 @@ template <int Dim> struct KernelData {
     double* surface;               ///< values at the surface points, as each kernel says
     const double* parameters;      ///< of the law, [parameter][lane] [Pa]
     const double* inverse_inertia; ///< 1 / (density radius^2), [lane]: from force to acceleration / radius
+    double* memory;                ///< what the points remember, [point][number][lane]
 };
 
 /// Sums over the masters of a grain, weighted by mass, per lane: where the entries of the array stand.
@@ -71,14 +72,22 @@ template <int Dim> struct LawKernels {
     /// Stiffness under a displacement of the pattern's rows, with an inertia per unit of node mass, [lane] [Pa]: parameters,
     /// displacement, inertia, matrix; see stiffness_kernel.hpp.
     std::array<void (*)(const StiffnessPattern<Dim>*, double*, double*, double*, double*), 2> stiffness;
-    /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa].
+    /// Cauchy stress at one point, sigma = P F^T / J, from the three-dimensional F and its region's mean J [Pa]; what the point
+    /// remembers stands behind the parameters.
     Mat<3> (*cauchy_stress)(const double* parameters, const Mat<3>& F, double mean_J);
     /// The same as in internal_force for the points of one region: first Piola stresses times `scale` in place of their
-    /// deformation gradients; returns the smallest J.
-    double (*region_stress)(const double* parameters, double share, double scale, Tensor<Dim, double>* F);
+    /// deformation gradients; returns the smallest J. Null where points remember, as is region_energy.
+    double (*region_stress)(const double* parameters, double share, double scale, Tensor<Dim, double>* F) = nullptr;
     /// The same as in energy for one region of this volume; `min_stretch` falls to the smallest stretch.
     double (*region_energy)(const double* parameters, double share, double volume, const Tensor<Dim, double>* F,
-                            double& min_stretch);
+                            double& min_stretch)
+        = nullptr;
+    int memory_count = 0;                 ///< numbers that a point remembers; 0: what follows is not there
+    const double* first_memory = nullptr; ///< what they are at the start
+    /// Makes the points remember the end of a step; what was dissipated, per radius^Dim [J/m^Dim], [lane].
+    KernelPair<Dim, double*> advance {};
+    /// Parameters with which nothing is dissipated.
+    std::array<double, max_parameters> (*elastic)(std::array<double, max_parameters> parameters) = nullptr;
 };
 
 /// Kernels of every law.
@@ -114,11 +123,17 @@ public:
     /// room, which then stays in its cache.
     double* surface();
     double* force();
-    AlignedVector displacement, velocity, parameters, inverse_inertia, sums, extent, gain, per_lane;
+    AlignedVector displacement, velocity, memory, parameters, inverse_inertia, sums, extent, gain, per_lane;
     AlignedVector viscosity; ///< [lane] [Pa s]; empty where no grain has any, and so is
     AlignedVector viscous;   ///< what viscosity gives in a step, per radius^(Dim-1) [Pa s]
 
     KernelData<Dim> data();
+    /// What the points of the grain in a lane remember, [point][number].
+    void set_memory(int lane, const std::vector<double>& values)
+    {
+        for (size_t k = 0; k < values.size(); ++k)
+            memory[k * lanes + lane] = values[k];
+    }
     /// Of the law, of the grain in a lane [Pa].
     void set_parameters(int lane, const std::array<double, max_parameters>& values)
     {

@@ -22,6 +22,12 @@ namespace {
     };
     template <int Dim> using Grains = std::vector<Bounded<Dim>>;
 
+    /// A point that flows is softer than one that does not, and any may stop.
+    template <int Dim> std::array<double, max_parameters> stiffest(const Grain<Dim>& grain)
+    {
+        return grain.law->elastic ? grain.law->elastic(grain.parameters) : grain.parameters;
+    }
+
     /// Grains of one mesh and law as they are deformed.
     template <int Dim> Batch<Dim> side_by_side(const Grains<Dim>& grains)
     {
@@ -29,10 +35,14 @@ namespace {
         Batch<Dim> batch(grains[0].grain->mesh, *grains[0].grain->law, lanes);
         for (int lane = 0; lane < lanes; ++lane) {
             const Grain<Dim>& grain = *grains[std::min(size_t(lane), grains.size() - 1)].grain;
-            batch.set_parameters(lane, grain.parameters);
-            for (size_t i = 0; i < size_t(Dim) * batch.mesh->master_count; ++i)
-                batch.displacement[i * lanes + lane]
-                    = grain.batch ? grain.batch->displacement[i * grain.batch->lanes + grain.lane] : grain.displacement[i];
+            batch.set_parameters(lane, stiffest(grain));
+            const auto take = [&](AlignedVector Batch<Dim>::*field, const std::vector<double>& held) {
+                for (size_t i = 0; i < held.size(); ++i)
+                    (batch.*field)[i * lanes + lane]
+                        = grain.batch ? (grain.batch->*field)[i * grain.batch->lanes + grain.lane] : held[i];
+            };
+            take(&Batch<Dim>::displacement, grain.displacement);
+            take(&Batch<Dim>::memory, grain.memory);
         }
         return batch;
     }
@@ -83,7 +93,7 @@ namespace {
 template <int Dim> double unit_critical_step(const Grain<Dim>& grain)
 {
     Batch<Dim> batch(grain.mesh, *grain.law, 1);
-    batch.set_parameters(0, grain.parameters);
+    batch.set_parameters(0, stiffest(grain));
     double stiffness;
     highest_eigenvalues(batch, fine, &stiffness);
     return 2 / std::sqrt(stiffness);

@@ -43,6 +43,7 @@ void Grain<Dim>::place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const V
         updated->add_velocity(Vec<Dim>::Zero(), speed / radius, velocity_gradient);
         return refresh();
     }
+    forget();
     displacement.resize(size_t(Dim) * mesh->master_count);
     velocity.resize(displacement.size());
     for (int i = 0; i < mesh->master_count; ++i) {
@@ -54,6 +55,13 @@ void Grain<Dim>::place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const V
         }
     }
     refresh();
+}
+
+template <int Dim> void Grain<Dim>::forget()
+{
+    memory.clear();
+    for (int p = 0; p < mesh->point_count(); ++p)
+        memory.insert(memory.end(), law->first_memory, law->first_memory + law->memory_count);
 }
 
 template <int Dim> std::vector<double> Grain<Dim>::with_slaves(const std::vector<double>& field) const
@@ -71,6 +79,7 @@ template <int Dim> Batch<Dim> Grain<Dim>::alone() const
 {
     Batch<Dim> batch(mesh, *law, 1);
     batch.set_parameters(0, parameters);
+    batch.set_memory(0, memory);
     std::copy(displacement.begin(), displacement.end(), batch.displacement.begin());
     std::copy(velocity.begin(), velocity.end(), batch.velocity.begin());
     motion_kernels<Dim>().observe[0](batch.data(), batch.sums.data(), batch.extent.data());
@@ -152,6 +161,8 @@ template <int Dim> void Grain<Dim>::pull()
         displacement[i] = batch->displacement[i * batch->lanes + lane];
         velocity[i] = batch->velocity[i * batch->lanes + lane];
     }
+    for (size_t k = 0; k < memory.size(); ++k)
+        memory[k] = batch->memory[k * batch->lanes + lane];
 }
 
 template <int Dim> void Grain<Dim>::put()
@@ -161,6 +172,7 @@ template <int Dim> void Grain<Dim>::put()
         batch->displacement[i * batch->lanes + lane] = displacement[i];
         batch->velocity[i * batch->lanes + lane] = velocity[i];
     }
+    batch->set_memory(lane, memory);
 }
 
 template <int Dim> void Grain<Dim>::translate(const Vec<Dim>& shift)
@@ -214,6 +226,8 @@ template <int Dim> std::vector<Mat<3>> Grain<Dim>::cauchy_stresses() const
 {
     const std::vector<Mat<Dim>> F = deformation_gradients();
     std::vector<Mat<3>> stress;
+    std::vector<double> constants(parameters.begin(), parameters.begin() + law->parameter_count);
+    constants.resize(constants.size() + law->memory_count);
     for (const auto& region : mesh->regions) {
         const int first = mesh->blocks[region.first_block].first_point, points = power(2, Dim);
         double mean_J = 0;
@@ -222,11 +236,21 @@ template <int Dim> std::vector<Mat<3>> Grain<Dim>::cauchy_stresses() const
         for (int p = first; p < first + points; ++p) {
             Mat<3> whole = Mat<3>::Identity();
             whole.template topLeftCorner<Dim, Dim>() = F[p];
+            std::copy_n(memory.data() + size_t(p) * law->memory_count, law->memory_count,
+                        constants.data() + law->parameter_count);
             stress.push_back(
-                law->cauchy_stress(parameters.data(), whole, region.pointwise < 1 ? mean_J : F[p].determinant()));
+                law->cauchy_stress(constants.data(), whole, region.pointwise < 1 ? mean_J : F[p].determinant()));
         }
     }
     return stress;
+}
+
+template <int Dim> std::vector<double> Grain<Dim>::plastic_strains() const
+{
+    std::vector<double> strains(mesh->point_count());
+    for (size_t p = 0; p < strains.size() && law->memory_count > 0; ++p)
+        strains[p] = memory[(p + 1) * law->memory_count - 1];
+    return strains;
 }
 
 template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::at_points(const std::vector<double>& field) const

@@ -30,6 +30,7 @@ template <int Dim> struct Grain {
     double viscosity = 0;                             ///< [Pa s], see step/viscosity.hpp
     Vec<Dim> origin = Vec<Dim>::Zero();               ///< a node is at origin + radius (X + u) [m]
     std::vector<double> displacement, velocity;       ///< of the masters, [node][Dim] [radius], [radius/s]
+    std::vector<double> memory;                       ///< of the points, [point][number]; empty where the law has none
     /// Updated-Lagrangian: its state, instead of the node fields. None, as it is unless set before place(): total-Lagrangian.
     std::optional<UpdatedBody<Dim>> updated;
     Surface<Dim> surface;
@@ -43,6 +44,8 @@ template <int Dim> struct Grain {
     /// At rest, undeformed, turned by `rotation`, centre at `centre`; sizes all fields.
     void place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const Vec<Dim>& velocity,
                const Mat<Dim>& velocity_gradient);
+    /// The points remember nothing but what they do at the start.
+    void forget();
     /// Surface and motion from the node fields held here, or from the points.
     void refresh();
     /// Surface and motion of an updated-Lagrangian grain after its points have moved: lays its grid anew.
@@ -61,6 +64,8 @@ template <int Dim> struct Grain {
     std::vector<Mat<Dim>> deformation_gradients() const;
     /// Cauchy stresses at the material points [Pa]; in 2D plane strain, with the out-of-plane stress.
     std::vector<Mat<3>> cauchy_stresses() const;
+    /// Plastic strains that have gathered at the material points; zeros where there is no plasticity.
+    std::vector<double> plastic_strains() const;
     /// Elastic energy now [J], from the node fields held here; renews `elastic` and `min_stretch` too.
     double elastic_energy();
     /// Velocities of the material points [m/s].

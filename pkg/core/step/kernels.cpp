@@ -4,8 +4,12 @@
 
 #include "material/mooney_rivlin.hpp"
 #include "material/neo_hookean.hpp"
+#include "material/plastic.hpp"
+#include "step/advance_kernel.hpp"
 #include "step/stiffness_kernel.hpp"
 #include "step/versions.hpp"
+
+#include <algorithm>
 
 namespace softgrain {
 namespace {
@@ -28,40 +32,51 @@ namespace {
 
     template <int Dim, class Law> double region_stress(const double* p, double share, double scale, Tensor<Dim, double>* F)
     {
-        double smallest = 1e300;
-        kernels::region_stress<Dim, Law>(p, share, scale, F, smallest);
+        double constants[Law::parameters.size()], smallest = 1e300;
+        std::copy_n(p, Law::parameters.size(), constants);
+        kernels::region_stress<Dim, Law, 1>(constants, nullptr, share, scale, F, smallest);
         return smallest;
     }
 
     template <int Dim, class Law>
     double region_energy(const double* p, double share, double volume, const Tensor<Dim, double>* F, double& min_stretch)
     {
-        double sum = 0;
-        kernels::region_energy<Dim, Law>(p, share, volume, F, sum, min_stretch);
+        double constants[Law::parameters.size()], sum = 0;
+        std::copy_n(p, Law::parameters.size(), constants);
+        kernels::region_energy<Dim, Law, 1>(constants, nullptr, share, volume, F, sum, min_stretch);
         return sum;
     }
 
     template <int Dim, class Law> LawKernels<Dim> kernels_of()
     {
-        return { Law::name,
-                 int(Law::parameters.size()),
-                 Law::parameters.data(),
-                 &Law::wave_modulus,
-                 &Law::template shear_modulus<double>,
-                 &Law::complaint,
-                 Versions<kernels::InternalForce<Dim, Law>, const KernelData<Dim>&, double*>::table(),
-                 Versions<kernels::Energy<Dim, Law>, const KernelData<Dim>&, double*, double*>::table(),
-                 Versions<kernels::Stiffness<Dim, Law>, const StiffnessPattern<Dim>*, double*, double*, double*,
-                          double*>::table(),
-                 &cauchy_stress<Law>,
-                 &region_stress<Dim, Law>,
-                 &region_energy<Dim, Law> };
+        LawKernels<Dim> kernels { Law::name,
+                                  int(Law::parameters.size()),
+                                  Law::parameters.data(),
+                                  &Law::wave_modulus,
+                                  &Law::template shear_modulus<double>,
+                                  &Law::complaint,
+                                  Versions<kernels::InternalForce<Dim, Law>, const KernelData<Dim>&, double*>::table(),
+                                  Versions<kernels::Energy<Dim, Law>, const KernelData<Dim>&, double*, double*>::table(),
+                                  Versions<kernels::Stiffness<Dim, Law>, const StiffnessPattern<Dim>*, double*, double*,
+                                           double*, double*>::table(),
+                                  &cauchy_stress<Law> };
+        if constexpr (Law::memory.empty()) {
+            kernels.region_stress = &region_stress<Dim, Law>;
+            kernels.region_energy = &region_energy<Dim, Law>;
+        } else {
+            kernels.memory_count = int(Law::memory.size());
+            kernels.first_memory = Law::memory.data();
+            kernels.advance = Versions<kernels::Advance<Dim, Law>, const KernelData<Dim>&, double*>::table();
+            kernels.elastic = &Law::elastic;
+        }
+        return kernels;
     }
 
     /// The register of laws.
     template <int Dim> const std::vector<LawKernels<Dim>>& laws()
     {
-        static const std::vector<LawKernels<Dim>> all { kernels_of<Dim, NeoHookean>(), kernels_of<Dim, MooneyRivlin>() };
+        static const std::vector<LawKernels<Dim>> all { kernels_of<Dim, NeoHookean>(), kernels_of<Dim, MooneyRivlin>(),
+                                                        kernels_of<Dim, Plastic>() };
         return all;
     }
 

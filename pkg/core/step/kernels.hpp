@@ -235,6 +235,19 @@ template <int Dim, class T, int L> SOFTGRAIN_INLINE void interpolate(const Kerne
     }
 }
 
+/// What the points of a region remember, [point][number][lane].
+template <int Dim, class Law, int L> SOFTGRAIN_INLINE double* memory_of(const KernelData<Dim>& data, int region)
+{
+    return data.memory + long(region) * power(2, Dim) * long(Law::memory.size()) * L;
+}
+
+/// Puts what a point of a region remembers behind the constants; laws without memory have nothing to put.
+template <class Law, int L, class T> SOFTGRAIN_INLINE void recall(const double* memory, int point, T* p)
+{
+    for (size_t k = 0; k < Law::memory.size(); ++k)
+        p[Law::parameters.size() + k] = item<T, L>(memory, long(point * Law::memory.size() + k));
+}
+
 /// Points of a cut cell lie where the nodes are held by little mass; a share of the volumetric stiffness keeps their J near
 /// the mean of the region [Pa]. It is a stiffness against pointwise volume change, so it may not grow with the volumetric
 /// one: over some 50 shear moduli (a Poisson ratio of 0.49) it would lock the rim. Full cells need none. With the whole
@@ -248,8 +261,8 @@ template <class Law, class T> SOFTGRAIN_INLINE T stabilisation(double share, con
 /// Stresses of the points of a region in place of their deformation gradients, times `scale`:
 ///     scale [dw/dF + (U'(mean J) + k (J_p - mean J)) cof F_p],    k the stabilisation.
 /// `smallest` falls to the smallest J.
-template <int Dim, class Law, class T>
-SOFTGRAIN_INLINE void region_stress(const T* p, double share, double scale, Tensor<Dim, T>* F, T& smallest)
+template <int Dim, class Law, int L, class T>
+SOFTGRAIN_INLINE void region_stress(T* p, const double* memory, double share, double scale, Tensor<Dim, T>* F, T& smallest)
 {
     constexpr int points = power(2, Dim);
     T J[points + 1], inverse_J[points + 1], sum {}; // the last: mean J of the region
@@ -267,6 +280,7 @@ SOFTGRAIN_INLINE void region_stress(const T* p, double share, double scale, Tens
     for (int q = 0; q < points; ++q) {
         const Tensor<Dim, T> cof = cofactor(F[q]);
         Tensor<Dim, T> P;
+        recall<Law, L>(memory, q, p);
         Law::template stress<Dim, T>(p, F[q], cof, inverse_J[q], P);
 #pragma GCC unroll 3
         for (int i = 0; i < Dim; ++i)
@@ -277,8 +291,9 @@ SOFTGRAIN_INLINE void region_stress(const T* p, double share, double scale, Tens
 }
 
 /// Adds the elastic energy of a region to `sum`; `smallest` falls to the smallest principal stretch.
-template <int Dim, class Law, class T>
-SOFTGRAIN_INLINE void region_energy(const T* p, double share, double volume, const Tensor<Dim, T>* F, T& sum, T& smallest)
+template <int Dim, class Law, int L, class T>
+SOFTGRAIN_INLINE void region_energy(T* p, const double* memory, double share, double volume, const Tensor<Dim, T>* F, T& sum,
+                                    T& smallest)
 {
     constexpr int points = power(2, Dim);
     T J[points], mean {}, spread {};
@@ -286,6 +301,7 @@ SOFTGRAIN_INLINE void region_energy(const T* p, double share, double volume, con
         J[q] = determinant(F[q]);
         mean += J[q];
         smallest = smaller(smallest_stretch(F[q]), smallest);
+        recall<Law, L>(memory, q, p);
         sum += volume / points * Law::template energy<Dim, T>(p, F[q]);
     }
     mean *= 1.0 / points;
@@ -302,7 +318,7 @@ template <int Dim, class Law> struct InternalForce {
     template <class T, int L> static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* min_J)
     {
         constexpr int points = power(2, Dim);
-        T p[Law::parameters.size()], smallest = broadcast<T>(1e300);
+        T p[Law::parameters.size() + Law::memory.size()], smallest = broadcast<T>(1e300);
         for (size_t k = 0; k < Law::parameters.size(); ++k)
             p[k] = item<T, L>(data.parameters, k);
         clear<Dim, T, L>(data, data.force);
@@ -310,7 +326,8 @@ template <int Dim, class Law> struct InternalForce {
             const auto& region = data.regions[r];
             Tensor<Dim, T> F[points];
             deform<Dim, L>(data, region, F);
-            region_stress<Dim, Law>(p, region.pointwise, -region.volume / points, F, smallest);
+            region_stress<Dim, Law, L>(p, memory_of<Dim, Law, L>(data, r), region.pointwise, -region.volume / points, F,
+                                       smallest);
             load<Dim, L>(data, region, F);
         }
         fold<Dim, T, L>(data, data.force);
@@ -322,14 +339,15 @@ template <int Dim, class Law> struct Energy {
     template <class T, int L>
     static SOFTGRAIN_INLINE void run(const KernelData<Dim>& data, double* energy, double* min_stretch)
     {
-        T p[Law::parameters.size()], sum {}, smallest = broadcast<T>(1e300);
+        T p[Law::parameters.size() + Law::memory.size()], sum {}, smallest = broadcast<T>(1e300);
         for (size_t k = 0; k < Law::parameters.size(); ++k)
             p[k] = item<T, L>(data.parameters, k);
         for (int r = 0; r < data.region_count; ++r) {
             const auto& region = data.regions[r];
             Tensor<Dim, T> F[power(2, Dim)];
             deform<Dim, L>(data, region, F);
-            region_energy<Dim, Law>(p, region.pointwise, region.volume, F, sum, smallest);
+            region_energy<Dim, Law, L>(p, memory_of<Dim, Law, L>(data, r), region.pointwise, region.volume, F, sum,
+                                       smallest);
         }
         field<T, L>(energy)[0] = sum;
         field<T, L>(min_stretch)[0] = smallest;

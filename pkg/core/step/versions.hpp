@@ -27,6 +27,7 @@ template <int Dim> KernelData<Dim> from_lane(KernelData<Dim> data, int lane)
         *array += lane;
     data.parameters += lane;
     data.inverse_inertia += lane;
+    if (data.memory) data.memory += lane;
     return data;
 }
 

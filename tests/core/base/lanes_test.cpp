@@ -38,6 +38,9 @@ template <class Operation> SOFTGRAIN_INLINE void map_all(const Operation& operat
 struct Logarithm {
     template <class T> SOFTGRAIN_INLINE T operator()(const T& x) const { return logarithm(x); }
 };
+struct Exponential {
+    template <class T> SOFTGRAIN_INLINE T operator()(const T& x) const { return exponential(x); }
+};
 struct SquareRoot {
     template <class T> SOFTGRAIN_INLINE T operator()(const T& x) const { return square_root(x); }
 };
@@ -70,7 +73,8 @@ double units_in_the_last_place(double found, long double exact)
     return double(std::abs(found - exact) / unit);
 }
 
-double worst_logarithm(Function function, const std::function<double()>& sample, int count)
+/// In units in the last place.
+double worst_error(Function function, long double (*exact)(long double), const std::function<double()>& sample, int count)
 {
     double worst = 0;
     for (int i = 0; i < count; i += 8) {
@@ -79,7 +83,7 @@ double worst_logarithm(Function function, const std::function<double()>& sample,
             value = sample();
         function(x, y);
         for (int k = 0; k < 24; ++k)
-            worst = std::max(worst, units_in_the_last_place(y[k], std::log((long double)x[k % 8])));
+            worst = std::max(worst, units_in_the_last_place(y[k], exact((long double)x[k % 8])));
     }
     return worst;
 }
@@ -89,8 +93,8 @@ TEST(LogarithmOfLanes, IsGoodTo2UnitsOverTheWholeRange)
 {
     Random random(1);
     for (const auto& [set, function] : on_all_sets<Logarithm>())
-        EXPECT_LE(worst_logarithm(
-                      function, [&] { return random.log_uniform(1e-300, 1e300); }, 400000),
+        EXPECT_LE(worst_error(
+                      function, std::log, [&] { return random.log_uniform(1e-300, 1e300); }, 400000),
                   2)
             << set;
 }
@@ -101,10 +105,32 @@ TEST(LogarithmOfLanes, IsGoodTo2UnitsNearOneAndWhereTheMantissaIsSplit)
     for (const auto& [set, function] : on_all_sets<Logarithm>())
         for (double centre : { 1.0, std::sqrt(0.5), std::sqrt(2.0), 0.5, 2.0 })
             for (double width : { 0.3, 1e-3, 1e-7, 1e-14 })
-                EXPECT_LE(worst_logarithm(
-                              function, [&] { return centre * (1 + random.uniform(-width, width)); }, 40000),
+                EXPECT_LE(worst_error(
+                              function, std::log, [&] { return centre * (1 + random.uniform(-width, width)); }, 40000),
                           2)
                     << set << " near " << centre << " within " << width;
+}
+
+TEST(ExponentialOfLanes, IsGoodTo2Units)
+{
+    Random random(3);
+    for (const auto& [set, function] : on_all_sets<Exponential>())
+        for (double width : { 700.0, 1.0, 1e-3, 1e-9 })
+            EXPECT_LE(worst_error(
+                          function, std::exp, [&] { return random.uniform(-width, width); }, 40000),
+                      2)
+                << set << " within " << width;
+}
+
+TEST(ExponentialOfLanes, OfZeroIsOne)
+{
+    for (const auto& [set, function] : on_all_sets<Exponential>()) {
+        const double x[8] {};
+        double y[24];
+        function(x, y);
+        for (double value : y)
+            EXPECT_EQ(value, 1) << set;
+    }
 }
 
 TEST(LogarithmOfLanes, OfOneIsZero)

@@ -19,6 +19,7 @@ public:
     int iterations = 0, substeps = 0, cuts = 0;
     double worst_penetration = 0, worst_residual = 0; ///< as in Outcome
     double dissipated = 0;                            ///< by the scheme [J/m]
+    double flowed = 0;                                ///< dissipated by plastic flow [J/m]
 
     void step(double dt)
     {
@@ -38,6 +39,7 @@ public:
                 source_[c]->creep = contact.creep;
             }
             assembly_->renew(h, settings.threads);
+            flowed += assembly_->dissipated().plastic;
             pass(h);
         });
         iterations += run_->report.iterations;

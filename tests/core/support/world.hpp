@@ -59,8 +59,8 @@ public:
         if (!assembly_) start();
         assembly_->evaluate_stretch(threads);
     }
-    /// By viscosity in the last step [J/m].
-    double dissipated() const { return assembly_->dissipated(); }
+    /// In the grains in the last step [J/m].
+    Assembly<2>::Dissipation dissipated() const { return assembly_->dissipated(); }
     /// Hands the fields back to the grains; the next step takes them in again.
     void release() { assembly_.reset(); }
     /// Takes out each grain's place and velocity along x, as a guide along the y axis would.
