@@ -160,7 +160,7 @@ def softBox(width, height, material=-1):
 
 def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSweeps=1000, verletDist=None,
                 friction=None, wallFriction=None, more=(), accuracy=None, integrator="explicit", theta=1.0,
-                quasistatic=False, functors=()):
+                quasistatic=False, functors=(), restitution=None, adhesion=None, reversible=True):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
     gravity       [m/s²]
@@ -170,6 +170,11 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     verletDist    of the InsertionSortCollider [m]; None: VERLET times the radius of the smallest soft grain, or else sphere
     friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
     wallFriction  the same between grains and other bodies
+    restitution   coefficient of Newton's law of impact, normal or (normal, tangential) [-]; None: 0 (explicit alone; what it
+                  means for soft grains: doc/theory.md, section 5)
+    adhesion      (tension [Pa], range [m]): surfaces nearer than the range attract each other; None: not (explicit alone)
+    reversible    of adhesion; False: surfaces that have come apart attract each other no more
+                  Each number of restitution and adhesion may be a MatchMaker of materials, that says it pair by pair
     more          engines to append (recorders, PyRunners)
     accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
     functors      of rigid bodies among each other: rigidContacts(), or Ig2, Ip2 and Law2 of YADE's laws, which the time step has
@@ -188,6 +193,10 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     theta = positive("softEngines: theta", theta)
     if not 0.5 <= theta <= 1:
         raise InputError(f"softEngines: theta is {theta:g}: give 0.5 to 1.")
+    effects = {**_restitution(restitution), **_adhesion(adhesion, reversible)}
+    if implicit and effects:
+        raise InputError(f"softEngines: {'restitution' if restitution is not None else 'adhesion'} is not known to implicit "
+                         "steps: leave it out, or give integrator='explicit'.")
     given = {"dt": None if implicit else dt, "safety": safety, "tolerance": tolerance}
     presets.refuse_both("softEngines", accuracy, [name for name, value in given.items() if value is not None])
     preset = presets.settings("softEngines", accuracy) if accuracy is not None else {}
@@ -229,8 +238,8 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
             [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),
              wrapper.Ig2_Box_SoftGrain_SoftGeom(), wrapper.Ig2_Sphere_SoftGrain_SoftGeom(),
              wrapper.Ig2_Facet_SoftGrain_SoftGeom(), *geometries],
-            [wrapper.Ip2_SoftMat_SoftMat_SoftPhys(**_friction("friction", friction)),
-             wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction)), *physics],
+            [wrapper.Ip2_SoftMat_SoftMat_SoftPhys(**_friction("friction", friction), **effects),
+             wrapper.Ip2_FrictMat_SoftMat_SoftPhys(**_friction("wallFriction", wallFriction), **effects), *physics],
             [wrapper.Law2_SoftGeom_SoftPhys_ContactDynamics(), *laws]),
         wrapper.NewtonIntegrator(damping=0, gravity=Vector3(*gravity)),
         mover,
@@ -258,6 +267,38 @@ def _friction(name, coefficient, function="softEngines"):
         return {}
     angle = math.atan(not_negative(f"{function}: {name}", coefficient))
     return {"frictAngle": wrapper.MatchMaker(algo="val", val=angle)}
+
+
+def _restitution(coefficients):
+    """The attributes of an Ip2 functor for softEngines' restitution."""
+    if coefficients is None:
+        return {}
+    both = coefficients if isinstance(coefficients, (list, tuple)) else (coefficients, 0.0)
+    if len(both) != 2:
+        raise InputError(f"softEngines: restitution has {len(both)} numbers: give that along the normal, or (normal, tangential).")
+    names = "normal restitution", "tangential restitution"
+    for name, value in zip(names, both):
+        if not isinstance(value, wrapper.MatchMaker) and not_negative(f"softEngines: {name}", value) > 1:
+            raise InputError(f"softEngines: {name} is {value:g}: give 0 to 1.")
+    return dict(zip(("en", "et"), map(_matched, both)))
+
+
+def _adhesion(adhesion, reversible):
+    """The attributes of an Ip2 functor for softEngines' adhesion."""
+    if adhesion is None:
+        return {}
+    if not isinstance(adhesion, (list, tuple)) or len(adhesion) != 2:
+        raise InputError(f"softEngines: adhesion is {adhesion!r}: give (tension in Pa, range in m).")
+    for name, value, unit in zip(("tension", "range"), adhesion, ("Pa", "m")):
+        if not isinstance(value, wrapper.MatchMaker):
+            positive(f"softEngines: {name} of adhesion", value, unit)
+    tension, reach = map(_matched, adhesion)
+    return {"adhesion": tension, "adhesionRange": reach, "adhesionReversible": bool(reversible)}
+
+
+def _matched(value):
+    """A MatchMaker that gives this number for all pairs, or the one that is given."""
+    return value if isinstance(value, wrapper.MatchMaker) else wrapper.MatchMaker(algo="val", val=float(value))
 
 
 def _sorted(functors):

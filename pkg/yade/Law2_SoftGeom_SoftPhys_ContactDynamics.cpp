@@ -8,8 +8,9 @@ YADE_PLUGIN((Law2_SoftGeom_SoftPhys_ContactDynamics));
 bool Law2_SoftGeom_SoftPhys_ContactDynamics::go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* interaction)
 {
     static const softgrain::SignoriniCoulomb<2> law;
-    if (!static_cast<SoftGeom&>(*geom).near()) return false;
-    static_cast<SoftPhys&>(*phys).law = &law;
+    auto& contact = static_cast<SoftPhys&>(*phys);
+    if (!static_cast<SoftGeom&>(*geom).near()) return contact.remembers();
+    contact.law = &law;
     handed_.take(scene->iter,
                  { interaction->id1, interaction->id2, boost::static_pointer_cast<SoftGeom>(geom),
                    boost::static_pointer_cast<SoftPhys>(phys) });

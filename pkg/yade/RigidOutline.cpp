@@ -38,6 +38,7 @@ bool RigidOutline::meet(const State& body, const State& state, const shared_ptr<
     const auto& grain = static_cast<const SoftState&>(state);
     Problems::guard([&] {
         show(body, dt, geom.rigid);
+        geom.rigid.ahead = grain.grain.surface.ahead;
         if (!geom.pair.apart(geom.rigid, grain.grain.surface, dt)) geom.pair.update(geom.rigid, grain.surface(), dt);
     });
     return interaction->isReal() || !geom.pair.points.empty();

@@ -47,7 +47,7 @@ void RigidPairs::pose(const Scene& scene, FreeBodies& free, softgrain::ContactPr
         contact.normal = (sign * pair.geom->normal).head<2>();
         const Real gap = -pair.geom->penetrationDepth;
         deepest_ = std::max(deepest_, -gap / std::min(pair.geom->refR1, pair.geom->refR2));
-        contact.gap_speed = (gap > 0 ? gap : recovery * gap) / scene.dt;
+        contact.offset = (gap > 0 ? gap : recovery * gap) / scene.dt * contact.normal;
         contact.friction = pair.phys->tangensOfFrictionAngle;
         contact.law = &law;
         contact.impulse = sign * kick * (pair.phys->normalForce + pair.phys->shearForce).head<2>();

@@ -17,9 +17,9 @@ void SoftImplicitIntegrator::advance(double dt)
 {
     Stopwatch watch(stageSeconds);
     loads_.gather(*scene, gravity, threads());
-    refuseUnknown();
+    refuseUnknownGrains();
     pairs_.collect(*scene, touchingPairs());
-    refuseFree();
+    refuseUnknownPairs();
     if (const auto rigid = rigidPairs(); !rigid.empty())
         throw std::runtime_error(
             "bodies #" + std::to_string(rigid[0].id1) + " and #" + std::to_string(rigid[0].id2)
@@ -108,7 +108,7 @@ void SoftImplicitIntegrator::search()
     }
     Problems::raise();
     pairs_.collect(*scene, touchingPairs(), true);
-    refuseFree();
+    refuseUnknownPairs();
 }
 
 /// NewtonIntegrator has moved the driven bodies already.
@@ -121,7 +121,7 @@ bool SoftImplicitIntegrator::wallsAhead() const
     return false;
 }
 
-void SoftImplicitIntegrator::refuseUnknown() const
+void SoftImplicitIntegrator::refuseUnknownGrains() const
 {
     for (const SoftState* state : soft_.states) {
         const auto refuse = [&](const std::string& what, const char* fix) {
@@ -135,14 +135,20 @@ void SoftImplicitIntegrator::refuseUnknown() const
     }
 }
 
-void SoftImplicitIntegrator::refuseFree()
+void SoftImplicitIntegrator::refuseUnknownPairs()
 {
-    for (const auto& pair : pairs_.pairs())
+    for (const auto& pair : pairs_.pairs()) {
+        if (pair.phys->rebounds() || pair.phys->adheres())
+            throw std::runtime_error(
+                "bodies #" + std::to_string(pair.id1) + " and #" + std::to_string(pair.id2) + " have "
+                + (pair.phys->adheres() ? "adhesion" : "coefficients of restitution")
+                + ", which SoftImplicitIntegrator does not know; leave it out, or take SoftIntegrator.");
         if (pair.mover)
             throw std::runtime_error("body #" + std::to_string(pair.mover->id) + ", a " + pair.mover->shape->getClassName()
                                      + ", is free to move and touches soft grain #" + std::to_string(pair.id2)
                                      + ", and SoftImplicitIntegrator knows fixed and driven rigid bodies alone; give it "
                                        "state.blockedDOFs = 'xyzXYZ', or take SoftIntegrator.");
+    }
 }
 
 void SoftImplicitIntegrator::requireSaneAttributes() const

@@ -57,8 +57,8 @@ protected:
 private:
     void search();
     bool wallsAhead() const;
-    void refuseUnknown() const;
-    void refuseFree();
+    void refuseUnknownGrains() const;
+    void refuseUnknownPairs();
     void take(double dt, double whole, const softgrain::ImplicitStep<2>::Outcome& outcome);
 
     std::unique_ptr<softgrain::ImplicitRun<2>> run_;

@@ -3,6 +3,7 @@
 
 #include "Bytes.hpp"
 #include "Law2_ScGeom_FrictPhys_ContactDynamics.hpp"
+#include "Ip2_FrictMat_SoftMat_SoftPhys.hpp"
 #include "Law2_SoftGeom_SoftPhys_ContactDynamics.hpp"
 #include "Problems.hpp"
 #include "SceneCheck.hpp"
@@ -10,6 +11,7 @@
 #include "Stopwatch.hpp"
 
 #include "contact/polyline.hpp"
+#include "solver/adhesion.hpp"
 #include "solver/matrix_form.hpp"
 
 #include <pkg/common/Wall.hpp>
@@ -101,6 +103,7 @@ void SoftIntegrator::advance(double dt)
     refuseStrangersNowAndThen();
     watch.stage(1);
 
+    if (!pairs_.pulls.contacts.empty()) softgrain::give(pairs_.pulls);
     solver_.tolerance = tolerance;
     solver_.max_sweeps = maxSweeps;
     solver_.threads = threads();
@@ -112,6 +115,7 @@ void SoftIntegrator::advance(double dt)
 
     softgrain::EnergyBalance balance;
     softgrain::Assembly<2>::account(pairs_.problem, balance);
+    if (!pairs_.pulls.contacts.empty()) countPulls();
     pairs_.load();
     pairs_.add(kick, 1);
     pairs_.rigid.deliver(*scene, pairs_.problem, kick);
@@ -150,6 +154,14 @@ void SoftIntegrator::countDissipation()
     const auto dissipated = assembly_->dissipated();
     viscousDissipation += dissipated.viscous;
     plasticDissipation += dissipated.plastic;
+}
+
+void SoftIntegrator::countPulls()
+{
+    softgrain::EnergyBalance balance;
+    softgrain::Assembly<2>::account(pairs_.pulls, balance);
+    adhesionWork += balance.contact_dissipation;
+    externalWork += balance.external_work;
 }
 
 /// The stable step shrinks with the smallest stretch: without end, the run would seem to hang. A boundary that has folded over
@@ -236,7 +248,7 @@ void SoftIntegrator::adopt()
     for (SoftState* state : soft_.states)
         grains.push_back(&state->grain);
     for (auto* grain : grains)
-        grain->surface.ahead = lookAhead() * grain->radius;
+        grain->surface.ahead = std::max(lookAhead() * grain->radius, adhesionRange());
     assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
     assembled();
     evaluate();
@@ -377,6 +389,18 @@ std::vector<RigidPair> SoftIntegrator::rigidPairs() const
     return pairs;
 }
 
+/// How far the adhesion of any pair reaches [m].
+Real SoftIntegrator::adhesionRange() const
+{
+    Real range = 0;
+    for (const auto& engine : scene->engines)
+        if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
+            for (const auto& functor : loop->physDispatcher->functors)
+                if (const auto* physics = dynamic_cast<const Ip2_FrictMat_SoftMat_SoftPhys*>(functor.get()))
+                    range = std::max(range, physics->farthest());
+    return range;
+}
+
 void SoftIntegrator::evaluate()
 {
     const std::lock_guard<std::recursive_mutex> lock(guard_);
@@ -402,6 +426,7 @@ void SoftIntegrator::trackEnergies()
     if (viscousDissipation > 0) energy.set(viscousDissipation, "softViscous", viscousId_);
     if (plasticDissipation > 0) energy.set(plasticDissipation, "softPlastic", plasticId_);
     energy.set(-externalWork, "softExternalWork", workId_);
+    if (adhesionWork != 0) energy.set(adhesionWork, "softAdhesion", adhesionId_);
 }
 
 Real SoftIntegrator::elasticEnergy()

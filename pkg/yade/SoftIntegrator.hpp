@@ -60,6 +60,7 @@ public:
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
                     (Real, plasticDissipation, 0, Attr::readonly, "Energy dissipated by plastic flow in the grains since the start, the work of hardening included [J/m]."))(
                     (Real, viscousDissipation, 0, Attr::readonly, "Energy dissipated by the viscosity of the grains since the start [J/m]."))(
+                    (Real, adhesionWork, 0, Attr::readonly, "Work against adhesion since the start [J/m]: stored where it is reversible."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
                     (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
                     (Real, contactIterations, 0, Attr::readonly, "Local contact problems solved since the start: contact points times sweeps [-]."))(
@@ -123,6 +124,8 @@ private:
     void refuseStrangers(Body::id_t id1, Body::id_t id2) const;
     void refuseCollapse() const;
     void settle(int grain, double dt);
+    void countPulls();
+    Real adhesionRange() const;
 
     softgrain::NonlinearGaussSeidel<2> solver_;
     softgrain::SmallestCriticalStep<2> smallestCriticalStep_;
@@ -130,7 +133,8 @@ private:
     size_t interactionCount_ = 0;        ///< in the last step
     Real evaluatedJ_ = 1;                ///< smallest J when the stable step was evaluated
     long evaluatedStep_ = -1;            ///< and the step of it
-    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, plasticId_ = -1, workId_ = -1;
+    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, plasticId_ = -1, workId_ = -1,
+        adhesionId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);
 

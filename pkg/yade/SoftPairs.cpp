@@ -2,6 +2,8 @@
 #include "SoftPairs.hpp"
 
 #include "contact/polyline.hpp"
+#include "law/newton_impact.hpp"
+#include "solver/adhesion.hpp"
 
 #include <map>
 
@@ -9,6 +11,16 @@ namespace yade {
 
 namespace {
     Vector3r inSpace(const softgrain::Vec<2>& v) { return Vector3r(v[0], v[1], 0); }
+
+    /// Gives the contact that was added last the offset of Newton's law.
+    void rebound(const softgrain::ContactPoint<2>& point, const SoftPhys& phys, softgrain::ContactProblem<2>& problem)
+    {
+        using Surface = softgrain::Surface<2>;
+        auto& contact = problem.contacts.back();
+        contact.offset = softgrain::NewtonImpact<2> { phys.en, phys.et }.offset(
+            point, contact.offset, problem.relative(contact, &Surface::velocity_before),
+            problem.relative(contact, &Surface::velocity));
+    }
 } // namespace
 
 void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching, bool goOn)
@@ -54,27 +66,59 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
 {
     deepest = 0;
     free_.clear();
-    for (const Pair& pair : pairs_) {
+    pulls.contacts.clear();
+    for (Pair& pair : pairs_) {
         if (pair.rigid && pair.body1 >= 0) {
             auto& surface = pair.geom->rigid;
             surface.rigid = pair.mover ? free_.take(pair.mover, *pair.second, surface, moved) : nullptr;
         }
+        const std::vector<double> pulled = pair.phys->adheres() ? pullsOf(pair, kick) : std::vector<double>();
+        size_t index = 0;
         for (const auto& point : pair.geom->points()) {
             deepest = std::max(deepest, -point.gap / pair.size());
             softgrain::Contact<2> contact;
             pair.describe(point, contact);
             contact.vertex = point.vertex;
             contact.weight = point.weight;
-            contact.gap_speed = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt;
+            contact.offset = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt * point.normal;
             contact.drive = softgrain::Vec<2>::Zero();
             if (pair.body1 < 0) contact.drive = pair.rigid->vel.head<2>();
             contact.law = pair.phys->law;
             contact.impulse = kick * point.force;
             problem.add(contact);
+            if (pair.phys->rebounds()) rebound(point, *pair.phys, problem);
+            if (!pulled.empty()) pull(pair, pulled[index++], kick);
         }
     }
+    if (!pulls.contacts.empty()) pulls.bodies = problem.bodies;
     rigid.pose(scene, free_, problem, kick, recovery, moved);
     deepest = std::max(deepest, rigid.deepest());
+}
+
+std::vector<double> SoftPairs::pullsOf(const Pair& pair, double kick) const
+{
+    SoftPhys& phys = *pair.phys;
+    const auto& second = pair.second->grain.surface;
+    const auto& first = pair.first ? pair.first->grain.surface : pair.geom->rigid;
+    const bool onSecond = !pair.geom->withPlane && softgrain::points_are_of_second(first, second);
+    const softgrain::Adhesion<2> adhesion { phys.adhesion, phys.adhesionRange, phys.adhesionReversible };
+    softgrain::Bonds bonds { std::move(phys.held), std::move(phys.parted) };
+    const auto all
+        = adhesion.pulls(pair.geom->points(), pair.geom->withPlane || onSecond ? second : first, onSecond, kick, bonds);
+    phys.held = std::move(bonds.held);
+    phys.parted = std::move(bonds.parted);
+    return all;
+}
+
+/// Adhesion pulls at the contact that was added last.
+void SoftPairs::pull(Pair& pair, double impulse, double kick)
+{
+    if (impulse == 0) return;
+    auto contact = problem.contacts.back();
+    contact.impulse = -impulse * contact.normal;
+    contact.friction = 0;
+    pulls.contacts.push_back(contact);
+    pair.count(contact.impulse / kick, contact, problem.bodies[contact.body]->x(contact.point), pair.sum.pull);
 }
 
 void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
@@ -146,13 +190,14 @@ void SoftPairs::refuseLeak(const Pair& pair, Real depth, Real most) const
 
 void SoftPairs::load()
 {
-    for (const auto& contact : problem.contacts) {
-        if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
-        problem.bodies[contact.body]->strike(contact.point, contact.impulse);
-        if (contact.other >= 0)
-            for (int k = 0; k < softgrain::face_vertices<2>; ++k)
-                problem.bodies[contact.other]->strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
-    }
+    for (const auto* part : { &problem, &pulls })
+        for (const auto& contact : part->contacts) {
+            if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
+            problem.bodies[contact.body]->strike(contact.point, contact.impulse);
+            if (contact.other >= 0)
+                for (int k = 0; k < softgrain::face_vertices<2>; ++k)
+                    problem.bodies[contact.other]->strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
+        }
 }
 
 void SoftPairs::add(double dt, double share)
@@ -163,31 +208,33 @@ void SoftPairs::add(double dt, double share)
             const auto& contact = problem.contacts[index++];
             point.force = contact.impulse / dt;
             if (contact.impulse == softgrain::Vec<2>::Zero()) continue;
-            // on body id2
-            const bool onSecond = contact.body == pair.body2;
-            const softgrain::Vec<2> force = share * (onSecond ? point.force : softgrain::Vec<2>(-point.force));
-            const softgrain::Vec<2> along = force.dot(contact.normal) * contact.normal;
-            const softgrain::Vec<2> where = problem.bodies[contact.body]->x(contact.point);
-            const Real size = along.norm();
-            pair.sum.normal += along;
-            pair.sum.shear += force - along;
-            pair.sum.place += size * where;
-            pair.sum.weight += size;
-            if (pair.rigid) {
-                const softgrain::Vec<2> arm = where - pair.rigid->pos.head<2>();
-                pair.sum.moment -= arm[0] * force[1] - arm[1] * force[0];
-            }
+            pair.count(share * point.force, contact, problem.bodies[contact.body]->x(contact.point), pair.sum.normal);
         }
+}
+
+void SoftPairs::Pair::count(const softgrain::Vec<2>& onPoint, const softgrain::Contact<2>& contact,
+                            const softgrain::Vec<2>& where, softgrain::Vec<2>& normal)
+{
+    const softgrain::Vec<2> force = contact.body == body2 ? onPoint : softgrain::Vec<2>(-onPoint);
+    const softgrain::Vec<2> along = force.dot(contact.normal) * contact.normal;
+    const Real size = along.norm();
+    normal += along;
+    sum.shear += force - along;
+    sum.place += size * where;
+    sum.weight += size;
+    if (!rigid) return;
+    const softgrain::Vec<2> arm = where - rigid->pos.head<2>();
+    sum.moment -= arm[0] * force[1] - arm[1] * force[0];
 }
 
 void SoftPairs::deliver(Scene& scene)
 {
     for (const Pair& pair : pairs_) {
-        pair.phys->normalForce = inSpace(pair.sum.normal);
+        pair.phys->normalForce = inSpace(pair.sum.normal + pair.sum.pull);
         pair.phys->shearForce = inSpace(pair.sum.shear);
         pair.phys->contactPoint = pair.sum.weight > 0 ? inSpace(pair.sum.place / pair.sum.weight) : Vector3r::Zero();
         if (pair.rigid && pair.sum.weight > 0) {
-            scene.forces.addForce(pair.id1, -inSpace(pair.sum.normal + pair.sum.shear));
+            scene.forces.addForce(pair.id1, -inSpace(pair.sum.normal + pair.sum.pull + pair.sum.shear));
             scene.forces.addTorque(pair.id1, Vector3r(0, 0, pair.sum.moment));
         }
     }
@@ -200,8 +247,8 @@ boost::python::list SoftPairs::withForce() const
     for (const Pair& pair : pairs_) {
         const Vector3r force = pair.phys->normalForce + pair.phys->shearForce;
         if (pair.phys->normalForce.squaredNorm() == 0) continue;
-        touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint,
-                                                  pair.phys->normalForce.normalized(), force));
+        const Vector3r normal = inSpace((pair.sum.normal - pair.sum.pull).normalized());
+        touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint, normal, force));
     }
     rigid.addWithForce(touching);
     return touching;

@@ -38,15 +38,16 @@ public:
 
     void clear()
     {
-        problem = {};
+        problem = pulls = {};
         pairs_.clear();
         rigid.clear();
         free_.clear();
     }
 
     softgrain::ContactProblem<2> problem;
-    RigidPairs rigid; ///< pairs without a soft grain
-    Real deepest = 0; ///< penetration of a contact point [radius of the smaller grain]
+    RigidPairs rigid;                   ///< pairs without a soft grain
+    softgrain::ContactProblem<2> pulls; ///< of adhesion: the same contacts, with impulses that are known
+    Real deepest = 0;                   ///< penetration of a contact point [radius of the smaller grain]
 
     struct Pair : TouchingPair {
         SoftState* first; ///< null: a rigid body
@@ -57,9 +58,13 @@ public:
         struct Sum {
             using Vec = softgrain::Vec<2>;
             Vec normal = Vec::Zero(), shear = Vec::Zero(); ///< forces on body id2 [N/m]
+            Vec pull = Vec::Zero();                        ///< of adhesion on it, besides [N/m]
             Vec place = Vec::Zero();                       ///< of the contact points, weighted by normal forces [N]
             Real weight = 0, moment = 0;                   ///< sum of normal forces [N/m]; torque on the rigid body [N]
         } sum;
+        /// Adds the force on a contact point to the sums, what is normal of it to `normal` among them.
+        void count(const softgrain::Vec<2>& onPoint, const softgrain::Contact<2>& contact, const softgrain::Vec<2>& where,
+                   softgrain::Vec<2>& normal);
         /// Radius of the smaller grain.
         Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
         /// Fills in who meets whom where, of a softgrain::Contact or a softgrain::BarrierContact.
@@ -101,6 +106,8 @@ public:
 
 private:
     void take(const Scene& scene, TouchingPair&& touching);
+    std::vector<double> pullsOf(const Pair& pair, double kick) const;
+    void pull(Pair& pair, double impulse, double kick);
     void refuseLeak(const Pair& pair, Real depth, Real most) const;
 
     const SoftBodies& soft_;

@@ -114,15 +114,18 @@ namespace {
         return body.mobility == 0 && body.kind != Surface<Dim>::Kind::round;
     }
 
-    /// A rigid polygon shows its faces, however thin it is.
-    template <int Dim> bool second_is_smaller(const Surface<Dim>& first, const Surface<Dim>& second)
-    {
-        return second.mobility > 0 && (shows_faces(first) || second.size < first.size);
-    }
+} // namespace
+
+template <int Dim> bool points_are_of_second(const Surface<Dim>& first, const Surface<Dim>& second)
+{
+    return second.mobility > 0 && (shows_faces(first) || second.size < first.size);
+}
+
+namespace {
 
     template <int Dim> double reach_of_pair(const Surface<Dim>& first, const Surface<Dim>& second, double dt)
     {
-        const bool second_smaller = second_is_smaller(first, second);
+        const bool second_smaller = points_are_of_second(first, second);
         return reach(second_smaller ? second : first, (second_smaller ? first : second).speed, dt);
     }
 
@@ -140,7 +143,7 @@ template <int Dim> bool PairContacts<Dim>::apart(const Surface<Dim>& first, cons
 
 template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const Surface<Dim>& second, double near)
 {
-    const bool second_smaller = second_is_smaller(first, second);
+    const bool second_smaller = points_are_of_second(first, second);
     const Surface<Dim>&small = second_smaller ? second : first, &large = second_smaller ? first : second;
     if (first.travel + second.travel + near >= memory.valid_until) {
         const double ahead = skin * small.size;
@@ -233,6 +236,7 @@ template double reach<2>(const Surface<2>&, double, double);
 template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, double);
 template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
+template bool points_are_of_second<2>(const Surface<2>&, const Surface<2>&);
 template double bulge<2>(const Surface<2>&);
 template double overlap<2>(const Surface<2>&, const Surface<2>&);
 template class PairContacts<2>;

@@ -43,6 +43,10 @@ template <int Dim> double allowance(const Surface<Dim>& larger, int point, const
 /// s angle / 8 off its chord; the angle is taken as 1. Rigid polygons and lines are straight: 0.
 template <int Dim> double bulge(const Surface<Dim>& surface);
 
+/// Whose points stand for the boundary where two bodies touch: of the smaller one, but of the grain where the other is a rigid
+/// polygon, which shows its faces, however thin it is.
+template <int Dim> bool points_are_of_second(const Surface<Dim>& first, const Surface<Dim>& second);
+
 template <int Dim> class PairContacts {
 public:
     /// Contact points with a gap below `reach`, in a fixed order; forces carry over from the last call.
@@ -101,6 +105,7 @@ private:
 extern template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, double);
 extern template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 extern template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
+extern template bool points_are_of_second<2>(const Surface<2>&, const Surface<2>&);
 extern template double bulge<2>(const Surface<2>&);
 extern template double overlap<2>(const Surface<2>&, const Surface<2>&);
 extern template class PairContacts<2>;

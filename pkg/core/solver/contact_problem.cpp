@@ -25,7 +25,7 @@ template <int Dim> double ContactProblem<Dim>::residual() const
     double error = 0, r2 = 0, u2 = 0, q2 = 0;
     for (const auto& contact : contacts) {
         const Vec<Dim>&n = contact.normal, &r = contact.impulse;
-        const Vec<Dim> u = inertia * (relative(contact, &Surface<Dim>::velocity) + contact.gap_speed * n);
+        const Vec<Dim> u = inertia * (relative(contact, &Surface<Dim>::velocity) + contact.offset);
         const Vec<Dim> slide = u - u.dot(n) * n;
         const Vec<Dim> target = r - u - contact.friction * slide.norm() * n;
         error += (r - cone_projection(target, n, contact.friction)).squaredNorm();

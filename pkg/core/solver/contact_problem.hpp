@@ -30,8 +30,8 @@ template <int Dim> struct Contact {
     std::array<int, face_vertices<Dim>> vertex;    ///< that the face follows
     std::array<double, face_vertices<Dim>> weight; ///< of the vertices, sum 1
     Vec<Dim> normal;                               ///< from the face to the point
-    double gap_speed;                              ///< gap / dt [m/s]
-    Vec<Dim> drive;                                ///< velocity of the rigid plane [m/s]
+    Vec<Dim> offset; ///< of the relative velocity that the law sees: gap / dt along the normal [m/s]
+    Vec<Dim> drive;  ///< velocity of the rigid plane [m/s]
     double friction;
     const ContactLaw<Dim>* law;
     Vec<Dim> impulse;                 ///< on the point side: start value, then solution [N s]

@@ -65,7 +65,7 @@ template <int Dim> MatrixForm<Dim> matrix_form(const ContactProblem<Dim>& proble
         add_lever(*problem.bodies[contact.body], contact.point, 1);
         for (int k = 0; contact.other >= 0 && k < face_vertices<Dim>; ++k)
             add_lever(*problem.bodies[contact.other], contact.vertex[k], -contact.weight[k]);
-        const Vec<Dim> u = problem.relative(contact, &Surface<Dim>::velocity) + contact.gap_speed * contact.normal;
+        const Vec<Dim> u = problem.relative(contact, &Surface<Dim>::velocity) + contact.offset;
         form.q.template segment<Dim>(Dim * c) = frames[c] * contact.free;
         form.r.template segment<Dim>(Dim * c) = frames[c] * contact.impulse;
         form.u.template segment<Dim>(Dim * c) = frames[c] * u;

@@ -46,7 +46,7 @@ namespace {
     template <int Dim> struct Local {
         int point, vertex[face_vertices<Dim>]; ///< places in the array of velocities; a rigid plane has no vertices
         double weight[face_vertices<Dim>];
-        Vec<Dim> normal, offset; ///< offset: gap speed along the normal, less the drive of a rigid plane
+        Vec<Dim> normal, offset; ///< offset: of the contact, less the drive of a rigid plane
         Vec<Dim> impulse;
         double inertia, friction;
         const ContactLaw<Dim>* law;
@@ -288,7 +288,7 @@ private:
                 local.weight[k] = contact.other < 0 ? 0 : contact.weight[k];
             }
             local.normal = contact.normal;
-            local.offset = contact.gap_speed * contact.normal - contact.drive;
+            local.offset = contact.offset - contact.drive;
             local.impulse = contact.impulse;
             local.contact->free = approach(local);
             local.friction = contact.friction;

@@ -15,7 +15,7 @@ template <int Dim> void RigidContacts<Dim>::begin(ContactProblem<Dim>& problem)
         if (!knows(problem, contact)) continue;
         Local local { &contact, problem.bodies[size_t(contact.body)]->rigid, nullptr, {}, {}, {}, contact.impulse, 0, 0 };
         const Vec<Dim> place = problem.bodies[size_t(contact.body)]->x(contact.point);
-        local.offset = contact.gap_speed * contact.normal - contact.drive;
+        local.offset = contact.offset - contact.drive;
         Mat<Dim> W = Mat<Dim>::Zero();
         const auto take = [&](const Body* body, Lever& lever) {
             lever.setZero();

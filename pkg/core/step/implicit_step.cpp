@@ -370,7 +370,7 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
         from.creep = pressed && sticks ? from.slide : 0;
         contact.inertia = length * dt * (from.compliance > 0 ? 1 / from.compliance : stiffness);
         const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
-        contact.gap_speed = from.gap / dt - rate;
+        contact.offset = (from.gap / dt - rate) * from.normal;
         problem.contacts.push_back(contact);
     }
 }
@@ -411,7 +411,7 @@ template <int Dim> void ImplicitStep<Dim>::give_impulses(double dt)
         contact.law = &law;
         contact.impulse *= settings_.theta;
         pressed.contacts.push_back(contact);
-        pressed.contacts.back().gap_speed = 0;
+        pressed.contacts.back().offset.setZero();
     }
     exchange_velocities();
     velocity_solver_.tolerance = 1e-3 * settings_.tolerance;

@@ -52,7 +52,7 @@ struct RandomProblem {
             contact.other = -1;
             contact.point = c;
             contact.normal = -grains[0].mesh->surface[c].position;
-            contact.gap_speed = random.uniform(-2, 0);
+            contact.offset = random.uniform(-2, 0) * contact.normal;
             contact.drive.setZero();
             contact.friction = friction;
             contact.law = &law;
@@ -97,7 +97,7 @@ struct RandomProblem {
             for (int vertex : c.vertex)
                 used_.insert({ c.other, vertex });
         c.normal = random.unit<2>();
-        c.gap_speed = random.uniform(-0.2, 0.5);
+        c.offset = random.uniform(-0.2, 0.5) * c.normal;
         c.drive = c.other < 0 ? random.vector<2>(0.5) : Vec<2>(0, 0);
         c.friction = friction;
         c.law = &law;
@@ -133,7 +133,7 @@ struct RandomProblem {
     {
         Eigen::MatrixXd q(problem.contacts.size(), 2);
         for (size_t i = 0; i < problem.contacts.size(); ++i)
-            q.row(i) = (problem.contacts[i].gap_speed * problem.contacts[i].normal - problem.contacts[i].drive).transpose();
+            q.row(i) = (problem.contacts[i].offset - problem.contacts[i].drive).transpose();
         for (size_t b = 0; b < problem.bodies.size(); ++b)
             q += shares(int(b))
                 * Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(free_velocity[b].data(),

@@ -68,11 +68,11 @@ TEST(Residual, HasItsValuesForOneContact)
     c.point = 3;
     c.normal = Vec<2>(0, 1);
     c.drive.setZero();
-    c.gap_speed = 0;
+    c.offset.setZero();
     c.inertia = 2e-3;
     const auto residual = [&](const Vec<2>& u) {
         p.grains[0].surface.v(c.point) = u;
-        c.free = u + c.gap_speed * c.normal - c.drive;
+        c.free = u + c.offset - c.drive;
         return p.problem.residual();
     };
     EXPECT_NEAR(residual({ 0, -3 }), 1, 1e-15);
@@ -82,9 +82,9 @@ TEST(Residual, HasItsValuesForOneContact)
     // (r_n + mu |r_t|) / (1 + mu^2) = (0.5 + 0.5) / 1.25 = 0.8 along the normal, 0.4 sideways
     EXPECT_NEAR(residual({ 1, -1 }), std::hypot(0.8, 0.4) / std::sqrt(2.0), 1e-14);
     // a gap left open outweighs the approach; a drive counts as the plane's velocity
-    c.gap_speed = 4;
+    c.offset = 4 * c.normal;
     EXPECT_NEAR(residual({ 0, -3 }), 0, 1e-15);
-    c.gap_speed = 0;
+    c.offset.setZero();
     c.drive = Vec<2>(0, -4);
     EXPECT_NEAR(residual({ 0, -3 }), 0, 1e-15);
     // without friction the cone is the normal's half-line: separation is a solution, approach is none

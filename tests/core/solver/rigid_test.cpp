@@ -37,7 +37,9 @@ struct FreeProblem : RandomProblem {
             if (contact.body != 3 && contact.other != 3) continue;
             const Vec<2> arm
                 = contact.body == 3 ? Vec<2>(body.centre - rigid.x(contact.point)) : foot(contact) - body.centre;
+            const double gap_speed = contact.offset.dot(contact.normal);
             contact.normal = Eigen::Rotation2Dd(random.uniform(-0.2, 0.2)) * arm.normalized();
+            contact.offset = gap_speed * contact.normal;
         }
         rigid.rigid = &body;
         for (int p = 0; p < rigid.count; ++p)
@@ -237,7 +239,7 @@ std::vector<Vec<2>> impulses_of_a_row(int threads)
                 contact.point = point;
                 contact.normal = -grains[0].mesh->surface[point].position.normalized();
                 contact.drive = contact.impulse = Vec<2>::Zero();
-                contact.gap_speed = random.uniform(-1, 0);
+                contact.offset = random.uniform(-1, 0) * contact.normal;
                 contact.friction = 0.3;
                 contact.law = &law;
                 problem.add(contact);

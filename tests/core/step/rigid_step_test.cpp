@@ -60,7 +60,7 @@ struct Impact {
         ContactProblem<2> problem;
         problem.bodies = { &surface, &grain.surface };
         for (const auto& p : pair.points)
-            problem.add({ p.on_second, !p.on_second, p.point, p.face, p.vertex, p.weight, p.normal, p.gap / dt,
+            problem.add({ p.on_second, !p.on_second, p.point, p.face, p.vertex, p.weight, p.normal, p.gap / dt * p.normal,
                           Vec<2>::Zero(), friction, &law, p.force * dt });
         NonlinearGaussSeidel<2>(1e-8).solve(problem);
         Assembly<2>::account(problem, balance);

@@ -2,10 +2,13 @@
 // A small scene that moves by explicit steps. Wires the core as its callers do: detect, predict, solve, account, correct.
 #pragma once
 
+#include "law/newton_impact.hpp"
+#include "solver/adhesion.hpp"
 #include "solver/nlgs.hpp"
 #include "step/critical_step.hpp"
 #include "support/scene.hpp"
 
+#include <map>
 #include <omp.h>
 
 namespace softgrain::testing_support {
@@ -20,13 +23,17 @@ class World : public Scene {
 public:
     NonlinearGaussSeidel<2> solver { 1e-6, 1000 };
     int threads = omp_get_max_threads();
+    std::optional<NewtonImpact<2>> impact;
+    std::optional<Adhesion<2>> adhesion;
     std::vector<int> order; ///< in which the assembly takes the grains; none: as they are
 
     // of the last step
     ContactProblem<2> problem;
+    ContactProblem<2> pulls;    ///< of adhesion
     double dt = 0, deepest = 0; ///< [s]; smallest gap [m]
     // since the start
     int sweeps = 0, steps = 0;
+    EnergyBalance pulled; ///< by adhesion
 
     void step(double dt_)
     {
@@ -35,9 +42,11 @@ public:
         detect();
         assembly_->predict(dt, gravity, threads);
         gather();
+        give(pulls);
         sweeps += solver.solve(problem);
         scatter();
         Assembly<2>::account(problem, balance);
+        Assembly<2>::account(pulls, pulled);
         assembly_->correct(dt, threads);
         pass(dt);
         ++steps;
@@ -85,12 +94,16 @@ public:
 
 private:
     std::vector<std::pair<ContactPoint<2>*, int>> owners_; ///< of the contacts; number of the plane or -1
+    std::vector<int> pulled_planes_;                       ///< of the pulls; number of the plane or -1
+    std::map<std::pair<int, int>, Bonds> bonds_;           ///< of a grain and another, or, negative, a plane
 
     void start()
     {
         std::vector<Grain<2>*> members;
         for (size_t k = 0; k < grains.size(); ++k)
             members.push_back(&grains[order.empty() ? k : size_t(order[k])]);
+        for (auto& grain : grains)
+            if (adhesion) grain.surface.ahead = adhesion->range;
         assemble(members);
     }
 
@@ -108,19 +121,44 @@ private:
         static const SignoriniCoulomb<2> law;
         for (auto& p : points) {
             problem.contacts.push_back({ p.on_second ? second : first, p.on_second ? first : second, p.point, p.face,
-                                         p.vertex, p.weight, p.normal, p.gap / dt, drive, friction, &law, p.force * dt });
+                                         p.vertex, p.weight, p.normal, p.gap / dt * p.normal, drive, friction, &law,
+                                         p.force * dt });
+            if (impact) {
+                Contact<2>& contact = problem.contacts.back();
+                contact.offset = impact->offset(p, contact.offset, problem.relative(contact, &Surface<2>::velocity_before),
+                                                problem.relative(contact, &Surface<2>::velocity));
+            }
             deepest = std::min(deepest, p.gap);
             owners_.push_back({ &p, plane });
+        }
+        if (adhesion) pull(points, first, second, plane);
+    }
+
+    /// Of the contacts that were added last.
+    void pull(const std::vector<ContactPoint<2>>& points, int first, int second, int plane)
+    {
+        const bool on_second
+            = second >= 0 && points_are_of_second(grains[size_t(first)].surface, grains[size_t(second)].surface);
+        const auto impulses = adhesion->pulls(points, grains[size_t(on_second ? second : first)].surface, on_second, dt,
+                                              bonds_[{ first, plane < 0 ? second : -1 - plane }]);
+        for (size_t i = 0; i < points.size(); ++i) {
+            if (impulses[i] == 0) continue;
+            pulls.contacts.push_back(problem.contacts[problem.contacts.size() - points.size() + i]);
+            pulls.contacts.back().impulse = -impulses[i] * points[i].normal;
+            pulls.contacts.back().friction = 0;
+            pulled_planes_.push_back(plane);
         }
     }
 
     void gather()
     {
-        problem = {};
+        problem = pulls = {};
         owners_.clear();
+        pulled_planes_.clear();
         deepest = 0;
         for (auto& grain : grains)
             problem.bodies.push_back(&grain.surface);
+        pulls.bodies = problem.bodies;
         each_pair([&](auto& contacts, size_t i, size_t j) { gather(contacts.points, int(i), int(j), Vec<2>::Zero(), -1); });
         each_plane_pair([&](auto& contacts, size_t w, size_t i) {
             gather(contacts.points, int(i), -1, planes[w].speed * Vec<2>::Unit(planes[w].axis), int(w));
@@ -131,14 +169,20 @@ private:
     {
         plane_force.assign(planes.size(), Vec<2>::Zero());
         for (size_t c = 0; c < problem.contacts.size(); ++c) {
-            const Contact<2>& contact = problem.contacts[c];
-            owners_[c].first->force = contact.impulse / dt;
-            if (owners_[c].second >= 0) plane_force[owners_[c].second] -= contact.impulse / dt;
-            grains[contact.body].surface.strike(contact.point, contact.impulse);
-            if (contact.other < 0) continue;
-            for (int k = 0; k < face_vertices<2>; ++k)
-                grains[contact.other].surface.strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
+            owners_[c].first->force = problem.contacts[c].impulse / dt;
+            load(problem.contacts[c], owners_[c].second);
         }
+        for (size_t c = 0; c < pulls.contacts.size(); ++c)
+            load(pulls.contacts[c], pulled_planes_[c]);
+    }
+
+    void load(const Contact<2>& contact, int plane)
+    {
+        if (plane >= 0) plane_force[size_t(plane)] -= contact.impulse / dt;
+        grains[size_t(contact.body)].surface.strike(contact.point, contact.impulse);
+        if (contact.other < 0) return;
+        for (int k = 0; k < face_vertices<2>; ++k)
+            grains[size_t(contact.other)].surface.strike(contact.vertex[k], -contact.weight[k] * contact.impulse);
     }
 };
 
