@@ -19,7 +19,7 @@ class Problem(NamedTuple):
     """Find r with u = W r + q, 0 <= r_n perp u_n >= 0, and Coulomb's friction; doc/theory.md, section 5.
 
     Vectors hold two entries a contact point, along its normal (towards the body of the point) and along the tangent
-    to the left of that. Impulses are per metre of thickness.
+    to the left of that. Impulses are per metre of thickness. Those of adhesion are in q, and r is without them.
     """
     rows: numpy.ndarray     # W in compressed rows: where each row begins, and the end; shape (2 contacts + 1,)
     columns: numpy.ndarray  # of the entries of W

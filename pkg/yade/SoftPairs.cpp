@@ -115,10 +115,13 @@ void SoftPairs::pull(Pair& pair, double impulse, double kick)
 {
     if (impulse == 0) return;
     auto contact = problem.contacts.back();
+    const auto& body = *problem.bodies[contact.body];
+    if (body.rigid && body.kind == softgrain::Surface<2>::Kind::round) // across a gap its point's radius misses the foot
+        contact.normal = (body.rigid->centre - body.x(contact.point)).normalized();
     contact.impulse = -impulse * contact.normal;
     contact.friction = 0;
     pulls.contacts.push_back(contact);
-    pair.count(contact.impulse / kick, contact, problem.bodies[contact.body]->x(contact.point), pair.sum.pull);
+    pair.count(contact.impulse / kick, contact, body.x(contact.point), pair.sum.pull);
 }
 
 void SoftPairs::take(const Scene& scene, TouchingPair&& touching)

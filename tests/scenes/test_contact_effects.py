@@ -5,6 +5,7 @@ import os
 import sys
 
 from yade import O
+from yade.minieigenHP import Vector3
 from yade.utils import wall
 from yade.wrapper import FrictMat, InteractionLoop, MatchMaker
 
@@ -101,6 +102,25 @@ def pulls_are_forces_of_the_pair(checks):
     checks.that("the block is pulled", force[1] < 0, force)
     checks.close_to("in the middle", point[0] / SIDE, 0, 0.05)
     checks.close_to("as the pair says", O.interactions[0, 1].phys.normalForce[1], force[1], 1e-15)
+
+
+def a_stone_sticks_to_a_grain(checks):
+    start()
+    grain = O.bodies.append(softDisc((0, 0), 1e-3, "gel", points=276))
+    stone = O.bodies.append(rigidDisc((1.61e-3, 0.2e-3), 0.6e-3, "stone", velocity=(-0.02, 0, 0), spin=5))
+    O.engines = softEngines(adhesion=(1e5, 4e-5), tolerance=1e-6, wallFriction=0)
+    soft, states = measures.softIntegrator(), [O.bodies[body].state for body in (grain, stone)]
+    momentum, kinetic = states[1].mass * states[1].vel, lambda: (states[1].mass * states[1].vel.squaredNorm()
+                                                               + states[1].inertia[2] * states[1].angVel[2]**2) / 2
+    first = kinetic()
+    run_until(3e-3)
+    total = sum((state.mass * state.vel for state in states), Vector3.Zero)
+    checks.that("momentum", (total - momentum).norm() < 1e-12 * momentum.norm(), (total, momentum))
+    checks.that("they stick", soft.contactCount > 0 and (states[0].pos - states[1].pos).norm() < 1.605e-3,
+                (soft.contactCount, (states[0].pos - states[1].pos).norm(), soft.adhesionWork))
+    checks.close_to("without friction only feet beside the radii turn it", states[1].angVel[2], 5, 0.2)
+    energy = (held_or_lost(soft) + soft.adhesionWork + kinetic() - first) / -soft.adhesionWork
+    checks.close_to("energy over the work of adhesion", energy, 0, 0.01)
 
 
 def bounce(reversible, interrupt=None):
@@ -240,5 +260,5 @@ def mistakes_get_one_sentence(checks):
 
 
 run_tests(friction_follows_the_pair_of_materials, a_block_comes_off_at_the_tension_times_its_side,
-          pulls_are_forces_of_the_pair, irreversible_adhesion_is_remembered, held_points_survive_a_file,
+          pulls_are_forces_of_the_pair, a_stone_sticks_to_a_grain, irreversible_adhesion_is_remembered, held_points_survive_a_file,
           a_light_stone_rebounds_by_newtons_law, numbers_may_differ_from_pair_to_pair, mistakes_get_one_sentence)

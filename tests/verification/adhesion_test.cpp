@@ -105,12 +105,16 @@ TEST(Adhesion, GivesBackWhatItTakesWhereItIsReversible)
 // places a gap apart, which makes a couple (doc/theory.md, section 4).
 TEST(Adhesion, GrainsStickAndKeepTheirMomenta)
 {
-    for (double friction : { 0.0, 0.3 }) {
+    struct Case {
+        double friction;
+        bool updated; ///< the smaller grain, in the updated-Lagrangian form
+    };
+    for (const auto& [friction, updated] : { Case { 0, false }, Case { 0.3, false }, Case { 0, true } }) {
         World world;
         const double radius = 1e-3, speed = 0.02;
         world.add(make_grain(disc_mesh(276), material, { Vec<2>(-1.001e-3, 0.2e-3), 0, Vec<2>(speed, 0) }, radius, density));
-        world.add(
-            make_grain(disc_mesh(124, 0.3), material, { Vec<2>(0.75e-3, 0), 0, Vec<2>(-speed, 0) }, 0.7 * radius, density));
+        world.add(make_grain(disc_mesh(124, 0.3), material,
+                             { Vec<2>(0.75e-3, 0), 0, Vec<2>(-speed, 0), Mat<2>::Zero(), updated }, 0.7 * radius, density));
         world.friction = friction;
         world.adhesion = Adhesion<2> { 1e5, 1e-5 };
         const double dt = step_of(world.grains[1], 0.5);
@@ -124,11 +128,11 @@ TEST(Adhesion, GrainsStickAndKeepTheirMomenta)
         const double momentum = (after.momentum - before.momentum).norm() / before.size,
                      angular = (after.angular - before.angular) / (before.size * radius),
                      residual = (world.energy() + world.lost() + work - energy) / -work;
-        std::printf("friction %.1f: momentum %.1e, angular momentum %.1e; energy residual %.1e of the work of adhesion\n",
-                    friction, momentum, angular, residual);
+        std::printf("friction %.1f%s: momentum %.1e, angular momentum %.1e; energy residual %.1e of the work of adhesion\n",
+                    friction, updated ? ", updated form" : "", momentum, angular, residual);
         EXPECT_LE(momentum, 1e-12);
         EXPECT_LE(std::abs(angular), friction > 0 ? 1e-4 : 1e-11);
-        EXPECT_LE(std::abs(residual), 0.01);
+        EXPECT_LE(std::abs(residual), updated ? 0.1 : 0.01); // a new grid holds another part of the motion
         EXPECT_FALSE(world.pulls.contacts.empty()) << "they have parted";
         EXPECT_LT(work, 0);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What Newton's law of impact at surface points means for grains that rebound by their elasticity.
+#include "support/shapes.hpp"
 #include "support/sums.hpp"
 
 #include <gtest/gtest.h>
@@ -52,6 +53,41 @@ TEST(Restitution, OfPointsIsNotThatOfGrains)
             EXPECT_LE(apart, points < 1000 ? 0.02 : 0.01);
         }
     }
+}
+
+/// A block on a wall, on which gravity comes within ten times the period of its waves and stays: where it stands then, and the
+/// energy of its motion over the work of gravity along its radius.
+struct Rest {
+    double height, kinetic;
+};
+
+Rest rest(std::optional<NewtonImpact<2>> impact)
+{
+    const double radius = 1, density = 1000, modulus = 1e6, c = std::sqrt(3 * modulus / density), gravity = 10;
+    World world;
+    const Grain<2>& grain = world.add(make_grain(mesh_of(PolygonOutline(rectangle_vertices(1, 1)), 256),
+                                                 { "Neo-Hookean", { modulus, modulus } },
+                                                 { Vec<2>(0, std::sqrt(M_PI) / 2 * radius) }, radius, density));
+    world.planes = { { 1, 1, 0, 0 } };
+    world.friction = 0.3;
+    world.impact = impact;
+    const double dt = step_of(grain, 0.5), ramp = 40 * radius / c;
+    while (world.time < 3 * ramp) {
+        const double t = std::min(1.0, world.time / ramp);
+        world.gravity.y() = -gravity * t * t * (3 - 2 * t);
+        world.step(dt);
+    }
+    return { grain.motion.position.y() / radius, grain.motion.kinetic / (grain.mass() * gravity * radius) };
+}
+
+// What lasts is no impact: a block that gravity presses on a wall stays where it is, as by the plain law.
+TEST(Restitution, DoesNotKickWhatIsAtRest)
+{
+    const Rest plain = rest({}), elastic = rest(NewtonImpact<2> { 1, 1 });
+    std::printf("kinetic energy %.1e m g R with e = 1, %.1e by the plain law; heights differ by %.1e R\n", elastic.kinetic,
+                plain.kinetic, elastic.height - plain.height);
+    EXPECT_LE(elastic.kinetic, 1e-7);
+    EXPECT_LE(std::abs(elastic.height - plain.height), 1e-12);
 }
 
 } // namespace
