@@ -2,8 +2,8 @@
 #include "SoftIntegrator.hpp"
 
 #include "Bytes.hpp"
-#include "Law2_ScGeom_FrictPhys_ContactDynamics.hpp"
 #include "Ip2_FrictMat_SoftMat_SoftPhys.hpp"
+#include "Law2_ScGeom_FrictPhys_ContactDynamics.hpp"
 #include "Law2_SoftGeom_SoftPhys_ContactDynamics.hpp"
 #include "Problems.hpp"
 #include "SceneCheck.hpp"
