@@ -18,6 +18,7 @@ void SoftImplicitIntegrator::advance(double dt)
     Stopwatch watch(stageSeconds);
     loads_.gather(*scene, gravity, threads());
     refuseUnknownGrains();
+    meetThemselves();
     pairs_.collect(*scene, touchingPairs());
     refuseUnknownPairs();
     if (const auto rigid = rigidPairs(); !rigid.empty())
@@ -59,10 +60,10 @@ void SoftImplicitIntegrator::advance(double dt)
     contactIterations += Real(iterations) * contactCount;
     numericalDissipation += run_->report.dissipated;
     externalWork += loads_.takeWork();
-    if (scene->iter % checkInterval == 0) {
-        requireSoftEngines(*scene);
-        pairs_.refuseLeaks(0.5);
-    }
+    assembly_->evaluate_stretch(threads());
+    refuseCollapse();
+    pairs_.refuseLeaks(0.5);
+    if (scene->iter % checkInterval == 0) requireSoftEngines(*scene);
     if (scene->trackEnergy) trackEnergies();
     watch.stage(3);
 }
@@ -107,6 +108,7 @@ void SoftImplicitIntegrator::search()
         engine->action();
     }
     Problems::raise();
+    meetThemselves();
     pairs_.collect(*scene, touchingPairs(), true);
     refuseUnknownPairs();
 }

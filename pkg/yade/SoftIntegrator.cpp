@@ -7,14 +7,10 @@
 #include "Law2_SoftGeom_SoftPhys_ContactDynamics.hpp"
 #include "Problems.hpp"
 #include "SceneCheck.hpp"
-#include "SoftTimeStepper.hpp"
 #include "Stopwatch.hpp"
 
-#include "contact/polyline.hpp"
 #include "solver/adhesion.hpp"
 #include "solver/matrix_form.hpp"
-
-#include <pkg/common/Wall.hpp>
 
 #include <core/InteractionLoop.hpp>
 #include <core/Omega.hpp>
@@ -36,13 +32,14 @@ int SoftIntegrator::threads() const
 void SoftIntegrator::postLoad(SoftIntegrator&) { stageSeconds.resize(4, 0); }
 
 namespace {
-    /// Calls visit(functor) for every Law2 functor of this class.
-    template <class Law, class Visit> void eachLaw(const Scene& scene, const Visit& visit)
+    /// Calls visit(functor) for every functor of this class in one of the dispatchers of InteractionLoop.
+    template <class Functor, class Dispatcher, class Visit>
+    void eachFunctor(const Scene& scene, Dispatcher InteractionLoop::*dispatcher, const Visit& visit)
     {
         for (const auto& engine : scene.engines)
             if (auto* loop = dynamic_cast<InteractionLoop*>(engine.get()))
-                for (const auto& functor : loop->lawDispatcher->functors)
-                    if (auto* law = dynamic_cast<Law*>(functor.get())) visit(*law);
+                for (const auto& functor : (loop->*dispatcher)->functors)
+                    if (auto* found = dynamic_cast<Functor*>(functor.get())) visit(*found);
     }
 
     /// Python ends with the last owner of a body that a script has made, and wants its lock for it. Not to be called under
@@ -86,6 +83,7 @@ void SoftIntegrator::advance(double dt)
     Stopwatch watch(stageSeconds);
     const double kick = lastStep > 0 ? (lastStep + dt) / 2 : dt;
 
+    meetThemselves();
     pairs_.collect(*scene, touchingPairs());
     pairs_.rigid.collect(rigidPairs());
     pairs_.wantSurfaces();
@@ -164,28 +162,6 @@ void SoftIntegrator::countPulls()
     externalWork += balance.external_work;
 }
 
-/// The stable step shrinks with the smallest stretch: without end, the run would seem to hang. A boundary that has folded over
-/// itself, a dent or a corner, meets others on the wrong side.
-void SoftIntegrator::refuseCollapse() const
-{
-    constexpr Real least = 1e-3, folds = 0.3; // stretches; at larger ones boundaries do not fold
-    const std::string causes
-        = "; likely causes: grains pressed beyond what their resolution can follow, or an impact near the "
-          "wave speed.";
-    for (const SoftState* state : soft_.states) {
-        const Real stretch = state->grain.min_stretch;
-        const std::string whose = "soft grain #" + std::to_string(state->grain.id) + ": ";
-        if (!(stretch > least))
-            throw softgrain::SimulationError(whose
-                                             + "somewhere it is pressed to less than a thousandth of its size, or turned "
-                                               "inside out (smallest stretch "
-                                             + softgrain::shown(stretch, 2) + ")" + causes);
-        if (stretch < folds && softgrain::crosses_itself(state->surface()))
-            throw softgrain::SimulationError(whose + "its boundary has folded over itself (smallest stretch "
-                                             + softgrain::shown(stretch, 2) + ")" + causes);
-    }
-}
-
 /// What comes of a grain after it moved.
 void SoftIntegrator::settle(int grain, double dt)
 {
@@ -235,7 +211,8 @@ void SoftIntegrator::adopt()
         if (softStateOf(*body)) takeIn(body);
     }
     bool rigid = false; // bodies have contacts with each other
-    eachLaw<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, [&](auto&) { rigid = true; });
+    eachFunctor<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, &InteractionLoop::lawDispatcher,
+                                                       [&](auto&) { rigid = true; });
     if (soft_.states.empty() && !rigid) return;
     for (const auto& body : *scene->bodies) {
         const std::string kind = body->shape ? body->shape->getClassName() : "";
@@ -269,79 +246,9 @@ void SoftIntegrator::takeIn(const shared_ptr<Body>& body)
                                    "InsertionSortCollider, and that before SoftIntegrator.");
     soft_.place.resize(size_t(body->id) + 1, -1);
     soft_.place[body->id] = int(soft_.states.size());
+    if (state->withItself) soft_.meetingThemselves.push_back(soft_.place[body->id]);
     soft_.bodies.push_back(body);
     soft_.states.push_back(state);
-}
-
-/// The limit is renewed every checkInterval steps; a SoftTimeStepper may be behind it.
-void SoftIntegrator::requireStableStep()
-{
-    if (scene->dt <= criticalStep) return;
-    for (const auto& engine : scene->engines)
-        if (const auto* stepper = dynamic_cast<const SoftTimeStepper*>(engine.get());
-            stepper && stepper->active && !stepper->dead) {
-            scene->dt = stepper->stepAt(criticalStep);
-            return;
-        }
-    throw std::runtime_error(
-        "O.dt = " + softgrain::shown(scene->dt) + " s is over the largest stable time step of the soft grains, "
-        + softgrain::shown(criticalStep) + " s; set O.dt below it, or put SoftTimeStepper() into O.engines.");
-}
-
-/// Attributes may be changed at any time.
-void SoftIntegrator::requireSaneAttributes() const
-{
-    const auto demand = [](bool sane, const char* name, Real value, const char* range) {
-        if (!sane)
-            throw std::runtime_error("SoftIntegrator: " + std::string(name) + " = " + softgrain::shown(value) + " has to "
-                                     + range + ".");
-    };
-    demand(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "lie between 0 and 1");
-    demand(maxSweeps > 0, "maxSweeps", maxSweeps, "be 1 or more");
-    demand(recovery >= 0 && recovery <= 1, "recovery", recovery, "lie between 0 and 1");
-    demand(checkInterval > 0, "checkInterval", checkInterval, "be 1 or more");
-    demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2],
-           "be 0 and the others finite: grains stay in the xy-plane");
-}
-
-void SoftIntegrator::refuseStrangersNowAndThen()
-{
-    if (std::exchange(interactionCount_, scene->interactions->size()) != scene->interactions->size()
-        || scene->iter % checkInterval == 0)
-        refuseStrangers();
-}
-
-/// Two rigid bodies, one of them free to move, that would pass through each other; walls cross anyway.
-void SoftIntegrator::refuseStrangers(Body::id_t id1, Body::id_t id2) const
-{
-    if (soft_.of(id1) >= 0 || soft_.of(id2) >= 0) return;
-    const auto &one = (*scene->bodies)[id1], &two = (*scene->bodies)[id2];
-    if (!one || !two || !one->shape || !two->shape) return;
-    if (dynamic_cast<const Wall*>(one->shape.get()) && dynamic_cast<const Wall*>(two->shape.get())) return;
-    if (!FreeBodies::mover(*scene, one) && !FreeBodies::mover(*scene, two)) return;
-    throw std::runtime_error(
-        "bodies #" + std::to_string(id1) + " and #" + std::to_string(id2) + ", a " + one->shape->getClassName() + " and a "
-        + two->shape->getClassName()
-        + ", are rigid, at least one is free to move, and no functor knows their contact; give the functors of one of "
-          "YADE's laws, as in softEngines(functors=[...]), or take one of the two out by a mask.");
-}
-
-/// Bodies that no functor brings into contact with soft grains.
-void SoftIntegrator::refuseStrangers() const
-{
-    for (const auto& interaction : *scene->interactions) {
-        if (interaction->isReal() || interaction->functorCache.geomExists) continue;
-        refuseStrangers(interaction->id1, interaction->id2);
-        const bool first = soft_.of(interaction->id1) >= 0;
-        const Body::id_t grain = first ? interaction->id1 : interaction->id2,
-                         otherId = first ? interaction->id2 : interaction->id1;
-        const auto& other = (*scene->bodies)[otherId];
-        if (soft_.of(grain) < 0 || !other || !other->shape) continue;
-        throw std::runtime_error(
-            "soft grain #" + std::to_string(grain) + " meets body #" + std::to_string(otherId) + ", a "
-            + other->shape->getClassName()
-            + ", and no functor knows their contact; soft grains touch soft grains, walls, boxes, spheres and facets.");
-    }
 }
 
 /// Interactions keep the functors of the engines that made them, and those of engines that have been replaced hand pairs over
@@ -378,14 +285,16 @@ void SoftIntegrator::takeOver()
 std::vector<TouchingPair> SoftIntegrator::touchingPairs() const
 {
     std::vector<TouchingPair> pairs;
-    eachLaw<Law2_SoftGeom_SoftPhys_ContactDynamics>(*scene, [&](auto& law) { law.handOver(scene->iter, pairs); });
+    eachFunctor<Law2_SoftGeom_SoftPhys_ContactDynamics>(*scene, &InteractionLoop::lawDispatcher,
+                                                        [&](auto& law) { law.handOver(scene->iter, pairs); });
     return pairs;
 }
 
 std::vector<RigidPair> SoftIntegrator::rigidPairs() const
 {
     std::vector<RigidPair> pairs;
-    eachLaw<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, [&](auto& law) { law.handOver(scene->iter, pairs); });
+    eachFunctor<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, &InteractionLoop::lawDispatcher,
+                                                       [&](auto& law) { law.handOver(scene->iter, pairs); });
     return pairs;
 }
 
@@ -393,12 +302,35 @@ std::vector<RigidPair> SoftIntegrator::rigidPairs() const
 Real SoftIntegrator::adhesionRange() const
 {
     Real range = 0;
-    for (const auto& engine : scene->engines)
-        if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
-            for (const auto& functor : loop->physDispatcher->functors)
-                if (const auto* physics = dynamic_cast<const Ip2_FrictMat_SoftMat_SoftPhys*>(functor.get()))
-                    range = std::max(range, physics->farthest());
+    eachFunctor<Ip2_FrictMat_SoftMat_SoftPhys>(*scene, &InteractionLoop::physDispatcher,
+                                               [&](const auto& physics) { range = std::max(range, physics.farthest()); });
     return range;
+}
+
+/// Does for grains that may meet themselves what InteractionLoop does for two bodies, by its functors.
+void SoftIntegrator::meetThemselves() const
+{
+    if (soft_.meetingThemselves.empty()) return;
+    Ip2_SoftMat_SoftMat_SoftPhys* friction = nullptr;
+    Law2_SoftGeom_SoftPhys_ContactDynamics* law = nullptr;
+    eachFunctor<Ip2_SoftMat_SoftMat_SoftPhys>(*scene, &InteractionLoop::physDispatcher,
+                                              [&](auto& found) { friction = &found; });
+    eachFunctor<Law2_SoftGeom_SoftPhys_ContactDynamics>(*scene, &InteractionLoop::lawDispatcher,
+                                                        [&](auto& found) { law = &found; });
+    for (int place : soft_.meetingThemselves) {
+        const SoftState& state = *soft_.states[size_t(place)];
+        const auto& body = soft_.bodies[size_t(place)];
+        const auto& surface = state.surface();
+        // implicit steps look again within the step, where there is a pair at all
+        const Real near = softgrain::reach(surface, surface.speed, scene->dt) + 10 * surface.ahead;
+        state.withItself->pair.look(surface, surface, near);
+        const shared_ptr<Interaction> interaction(new Interaction(body->id, body->id));
+        friction->go(body->material, body->material, interaction);
+        static_cast<SoftPhys&>(*interaction->phys).adhesion = 0; // its state would have to last over steps
+        shared_ptr<IGeom> geom = state.withItself;
+        law->go(geom, interaction->phys, interaction.get());
+    }
+    Problems::raise();
 }
 
 void SoftIntegrator::evaluate()

@@ -83,7 +83,7 @@ public:
                          "Residual of the last step's contact problem: ||r - P_K(r - u - μ|uₜ|n)|| / max(|q|, |r|, |u|), as Siconos defines it [-].")
                     .def("contacts",
                          &SoftIntegrator::contacts,
-                         "Contacts with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).")
+                         "Contacts of two bodies with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).")
                     .def("contactProblem",
                          &SoftIntegrator::contactProblem,
                          "The last step's contact problem as a matrix and vectors; softgrain.fclib.lastProblem() gives it as numpy arrays."));
@@ -100,8 +100,10 @@ protected:
     /// Adds what the grains have dissipated in themselves in a step of the assembly.
     void countDissipation();
     void refuseStrangersNowAndThen();
+    void refuseCollapse() const;
     std::vector<TouchingPair> touchingPairs() const;
     std::vector<RigidPair> rigidPairs() const;
+    void meetThemselves() const;
     void takeOver();
     virtual void trackEnergies();
     /// How long the velocities' time is before that of the displacements [s].
@@ -122,7 +124,6 @@ private:
     void takeIn(const shared_ptr<Body>& body);
     void refuseStrangers() const;
     void refuseStrangers(Body::id_t id1, Body::id_t id2) const;
-    void refuseCollapse() const;
     void settle(int grain, double dt);
     void countPulls();
     Real adhesionRange() const;

@@ -147,6 +147,7 @@ void SoftPairs::take(const Scene& scene, TouchingPair&& touching)
 void SoftPairs::refuseOverlaps() const
 {
     for (const Pair& pair : pairs_) {
+        if (pair.ofItself()) continue;
         if (!pair.second->justPlaced && !(pair.first && pair.first->justPlaced)) continue;
         const auto& second = pair.second->surface();
         Real depth = 0;
@@ -178,7 +179,15 @@ void SoftPairs::refuseLeaksAtPoints(Real most) const
 void SoftPairs::refuseLeaks(Real most) const
 {
     for (const Pair& pair : pairs_)
-        if (pair.first) refuseLeak(pair, softgrain::overlap(pair.first->grain.surface, pair.second->grain.surface), most);
+        if (pair.first && !pair.ofItself())
+            refuseLeak(pair, softgrain::overlap(pair.first->grain.surface, pair.second->grain.surface), most);
+    for (const SoftState* state : soft_.states)
+        if (state->grain.mesh->is_concave() && state->folded())
+            throw softgrain::SimulationError(
+                "soft grain #" + std::to_string(state->grain.id)
+                + ": its boundary has passed through itself; likely causes: a grain pressed beyond "
+                  "what its resolution can follow, an impact near the wave speed, or the "
+                  "updated-Lagrangian form, which knows no contact of a grain with itself.");
 }
 
 /// The answer is worth nothing from here on.
@@ -249,7 +258,7 @@ boost::python::list SoftPairs::withForce() const
     boost::python::list touching;
     for (const Pair& pair : pairs_) {
         const Vector3r force = pair.phys->normalForce + pair.phys->shearForce;
-        if (pair.phys->normalForce.squaredNorm() == 0) continue;
+        if (pair.ofItself() || pair.phys->normalForce.squaredNorm() == 0) continue;
         const Vector3r normal = inSpace((pair.sum.normal - pair.sum.pull).normalized());
         touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint, normal, force));
     }

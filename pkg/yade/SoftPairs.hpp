@@ -23,7 +23,8 @@ struct TouchingPair {
 struct SoftBodies {
     std::vector<shared_ptr<Body>> bodies;
     std::vector<SoftState*> states;
-    std::vector<int> place; ///< of a body, by id; -1 for others
+    std::vector<int> place;             ///< of a body, by id; -1 for others
+    std::vector<int> meetingThemselves; ///< places of those that may
 
     int of(Body::id_t id) const { return size_t(id) < place.size() ? place[id] : -1; }
 };
@@ -67,12 +68,14 @@ public:
                    softgrain::Vec<2>& normal);
         /// Radius of the smaller grain.
         Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
+        bool ofItself() const { return first == second; }
+        /// The contact point is on body id2.
+        bool onSecond(const softgrain::ContactPoint<2>& point) const { return geom->withPlane || point.on_second; }
         /// Fills in who meets whom where, of a softgrain::Contact or a softgrain::BarrierContact.
         template <class Contact> void describe(const softgrain::ContactPoint<2>& point, Contact& contact) const
         {
-            const bool onSecond = geom->withPlane || point.on_second;
-            contact.body = onSecond ? body2 : body1;
-            contact.other = onSecond ? body1 : body2;
+            contact.body = onSecond(point) ? body2 : body1;
+            contact.other = onSecond(point) ? body1 : body2;
             contact.point = point.point;
             contact.face = point.face;
             contact.normal = point.normal;
@@ -96,12 +99,12 @@ public:
     void deliver(Scene& scene);
     /// Moves the free rigid bodies by a step of length dt, once the problem is solved.
     void moveFree(Scene& scene, Real dt) { free_.move(scene, dt); }
-    /// Throws when bodies got past each other by `most` radii: at the contact points; anywhere.
+    /// Throws when bodies got past each other by `most` radii: at the contact points; anywhere, or a grain through itself.
     void refuseLeaksAtPoints(Real most) const;
     void refuseLeaks(Real most) const;
     /// Throws when grains that were just placed overlap: contact would throw them apart. A little, as in a dense packing, is let pass.
     void refuseOverlaps() const;
-    /// Pairs with a force: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).
+    /// Pairs of two bodies with a force: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).
     boost::python::list withForce() const;
 
 private:

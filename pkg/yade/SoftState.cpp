@@ -112,6 +112,7 @@ void SoftState::prepare(const Body& body)
         fresh.surface.ahead = ahead;
     }
     grain = fresh;
+    if (grain.mesh->is_concave() && !grain.updated && !withItself) withItself.reset(new SoftGeom);
     known_ = body.material;
     mass = grain.mass();
     inertia = Vector3r::Constant(grain.motion.second_moment.trace());

@@ -3,6 +3,8 @@
 
 #include <core/Body.hpp>
 
+#include "SoftGeom.hpp"
+
 #include "step/grain.hpp"
 
 #include <array>
@@ -11,7 +13,7 @@ namespace yade {
 
 class SoftState : public State {
 public:
-    static constexpr int currentFormat = 3; ///< of the saved fields
+    static constexpr int currentFormat = 4; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
     Real insideUntil = 0;    ///< travel of its surface up to which its bound surely holds it [m]
@@ -38,6 +40,7 @@ public:
     void preSave(SoftState&);
     /// With positions as of now, which steps leave out where nothing touches. Threads may ask at once.
     const softgrain::Surface<2>& surface() const;
+    bool folded() const { return softgrain::is_folded(surface(), grain.mesh->is_concave()); }
 
     // what Python sees of State: other engines (NewtonIntegrator) change vel and angVel themselves
     Vector3r& velocity() { return prepared() ? asked.vel : vel; }
@@ -98,6 +101,11 @@ public:
                      Attr::hidden,
                      "Contact force along x and y [N/m] and torque [N] in the last step, where these are blocked."))(
                     (Real, workByHand, 0, Attr::hidden, "Work of velocities set by hand that has not been accounted for [J/m]."))(
+                    (shared_ptr<SoftGeom>,
+                     withItself,
+                     ,
+                     Attr::hidden,
+                     "Contact points with itself, of a total-Lagrangian grain whose undeformed outline is concave; else none."))(
                     (Real, travel, 0, Attr::hidden, "Bound on the path of any surface point since the start [m]."))(
                     (Real, ahead, 0, Attr::hidden, "How far to look for contacts besides what speeds tell [m]."))(
                     (int, format, currentFormat, Attr::hidden, "Version of the saved fields [-].")),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sharp and slender bodies: a square through a slot, squares corner on corner, a corner that indents a disc, a grain pinched
-between two edges, a column that buckles, a slender grain, a notched one, a ring."""
+between two edges, a column that buckles, a slender grain, notched ones, a ring."""
 import math
 import os
 import sys
@@ -97,7 +97,7 @@ def slender(run):
 
 
 def notched(run):
-    """A square with a notch to its middle, pressed across until the notch is shut: its own faces do not know each other."""
+    """A square with a notch to its middle, pressed across by 30 %: the notch closes to half of its width."""
     w = 0.3 * RADIUS
     polygon([(-RADIUS, -RADIUS), (RADIUS, -RADIUS), (RADIUS, RADIUS), (w, RADIUS), (0, 0), (-w, RADIUS), (-RADIUS, RADIUS)],
             points=160)
@@ -105,6 +105,40 @@ def notched(run):
     plate(0, 1.001 * RADIUS, -1, -1.0)
     run.begin(5e-6)
     run.go(0.15 * RADIUS)
+
+
+def arms(friction):
+    """A U between walls on a floor, pressed across by 38 %: its arms, as far from each other as half of its radius, meet and press
+    on each other."""
+    def work(run):
+        w = 0.25 * RADIUS
+        body = polygon([(-RADIUS, -RADIUS), (RADIUS, -RADIUS), (RADIUS, RADIUS), (w, RADIUS), (w, 0), (-w, 0), (-w, RADIUS),
+                        (-RADIUS, RADIUS)], points=300)
+        plate(1, -1.15 * RADIUS, 1)
+        for side in (-1, 1):
+            plate(0, side * 1.001 * RADIUS, -side, -side)
+        run.begin(5e-6, friction=friction)
+        outline = arrays.outline(body)
+        sides = [(abs(outline[:, 0] - side * w) < 0.02 * RADIUS) & (outline[:, 1] > 0.1 * RADIUS) for side in (-1, 1)]
+        run.go(0.38 * RADIUS)
+        left, right = (arrays.outline(body)[side] for side in sides)
+        width = numpy.linalg.norm(left[:, None] - right, axis=2).min()
+        run.require("arms meet", width < 0.1 * RADIUS, width)
+        run.require("does not pass through itself", not covers_twice(body))
+    return work
+
+
+def covers_twice(body):
+    """Some place 0.02 R off the boundary is inside of it twice."""
+    outline = arrays.outline(body)
+    along = numpy.roll(outline, -1, axis=0) - numpy.roll(outline, 1, axis=0)
+    along /= numpy.linalg.norm(along, axis=1)[:, None]
+    for place in outline + 0.02 * RADIUS * numpy.stack((along[:, 1], -along[:, 0]), axis=1):
+        ways = outline - place
+        angles = numpy.unwrap(numpy.append(numpy.arctan2(ways[:, 1], ways[:, 0]), numpy.arctan2(ways[0, 1], ways[0, 0])))
+        if angles[-1] - angles[0] > 3 * math.pi:
+            return True
+    return False
 
 
 def ring(run):
@@ -130,7 +164,11 @@ run_cases(("square through a slot", METHODS, slot),
           ("column of four rectangles", METHODS, column),
           ("slender grain, aspect 10", METHODS, slender),
           ("notched grain", METHODS, notched),
+          ("arms of a U on each other", (*METHODS, "quasistatic"), arms(0)),
+          ("arms of a U on each other, friction 0.5", METHODS, arms(0.5)),
           ("slit ring", METHODS, ring),
-          known=[("square through", "explicit", "corners of the square fold over themselves at the edges of the slot"),
+          known=[*[("square through", method, "corners of the square fold over themselves at the edges of the slot")
+                   for method in ("explicit", "implicit")],
                  ("square through", "updated", GRID_LAID_ANEW), ("squares past", "updated", GRID_LAID_ANEW),
+                 ("arms of a U", "updated", "only the total-Lagrangian form knows contact of a grain with itself"),
                  ("column", "updated", GRID_LAID_ANEW), ("slender", "updated", GRID_LAID_ANEW)])

@@ -12,6 +12,7 @@ namespace {
     /// A gap along the interpolated normal shrinks by little more than the bodies move.
     constexpr double safe_share = 0.8;
     constexpr double end_depth = 1e-3; ///< of lines [size of the other body]
+    constexpr double own_depth = 0.02; ///< of a grain in itself; what is deeper may be the other side of a thin part [size]
 
     /// Forces of the last step go to the same points; both lists are in the same order.
     template <int Dim> void carry_forces(const std::vector<ContactPoint<Dim>>& old, std::vector<ContactPoint<Dim>>& fresh)
@@ -78,11 +79,22 @@ template <int Dim> double reach(const Surface<Dim>& a, double other_speed, doubl
     return 2 * dt * (a.speed + other_speed) + 1e-4 * a.size + a.ahead;
 }
 
+namespace {
+
+    /// A share of the distance of a body's points.
+    template <int Dim> double between_points(const Surface<Dim>& body) { return 0.25 * 2 * M_PI * body.size / body.count; }
+
+} // namespace
+
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller)
 {
-    constexpr double share = 0.25; // of the distance of the smaller body's points
     if (larger.kind == Surface<Dim>::Kind::line) return end_depth * smaller.size;
-    return larger.corner[point] ? 0 : share * 2 * M_PI * smaller.size / smaller.count;
+    return larger.corner[point] ? 0 : between_points(smaller);
+}
+
+template <int Dim> bool is_folded(const Surface<Dim>& surface, bool may_meet_itself)
+{
+    return may_meet_itself ? covers_itself(surface, between_points(surface)) : crosses_itself(surface);
 }
 
 template <int Dim> double bulge(const Surface<Dim>& surface)
@@ -90,6 +102,24 @@ template <int Dim> double bulge(const Surface<Dim>& surface)
     return surface.mobility > 0 || surface.kind == Surface<Dim>::Kind::round ? 2 * M_PI * surface.size / surface.count / 8
                                                                              : 0;
 }
+
+namespace {
+
+    /// Where a point of a grain stands against its own outline, to be looked for from the segment nearest to it.
+    template <int Dim> int nearest_to(const Surface<Dim>& mine, int point, const Surface<Dim>& other)
+    {
+        return &mine == &other ? faced_segment(mine, point, own_depth * mine.size) : nearest_segment(other, mine.x(point));
+    }
+
+    /// Of a grain and itself: the point and its foot are a pair, and this is the list that has it.
+    template <int Dim> bool faces_own(const Surface<Dim>& grain, int point, const Projection& at, bool earlier)
+    {
+        return earlier == (point < at.segment)
+            && face_each_other(grain, point, at.segment, grain.x(point) - at.gap * at.normal, at.normal,
+                               own_depth * grain.size);
+    }
+
+} // namespace
 
 template <int Dim>
 void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& other, bool of_larger, double margin,
@@ -102,7 +132,10 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         if (of_larger && mine.mobility == 0 && !mine.corner[p]) continue;
         const Vec<Dim> x = mine.x(p);
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
-        const Projection at = stand(mine, p, other, nearest_segment(other, x), 0.5);
+        const int nearest = nearest_to(mine, p, other);
+        if (nearest < 0) continue;
+        const Projection at = stand(mine, p, other, nearest, 0.5);
+        if (&mine == &other && !faces_own(mine, p, at, of_larger)) continue;
         if (at.gap + (of_larger ? allowance(mine, p, other) : 0) < margin) found.push_back({ p, at.segment, at.t, 0 });
     }
 }
@@ -165,6 +198,7 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
                 continue;
             }
             Projection at = stand(mine, candidate.point, other, candidate.face, candidate.place);
+            if (&mine == &other && !faces_own(mine, candidate.point, at, !mine_small)) continue;
             const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
             if (mine.kind == Surface<Dim>::Kind::round) at.normal = -outward(mine, candidate.point);
             at.gap += let;
@@ -237,6 +271,7 @@ template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, dou
 template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 template bool points_are_of_second<2>(const Surface<2>&, const Surface<2>&);
+template bool is_folded<2>(const Surface<2>&, bool);
 template double bulge<2>(const Surface<2>&);
 template double overlap<2>(const Surface<2>&, const Surface<2>&);
 template class PairContacts<2>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Contact points of two bodies: surface points of one against the boundary of the other.
 //
-//   PairContacts     a grain against a grain or a rigid polygon
+//   PairContacts     a grain against a grain or a rigid polygon, or a grain against itself
 //   PlaneContacts    a grain against the half-space behind a rigid plane
 #pragma once
 
@@ -39,6 +39,10 @@ template <int Dim> Bend bend_below(const Surface<Dim>& mine, const Surface<Dim>&
 /// where lines join, points on them hold the body, not the joint.
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller);
 
+/// Whether the boundary of a grain has folded over itself; or, where it may come to meet itself, passed through itself by more
+/// than is let pass.
+template <int Dim> bool is_folded(const Surface<Dim>& surface, bool may_meet_itself);
+
 /// How far the outline may reach out of the box of its points [m]. The middle of a segment of length s that turns by an angle is
 /// s angle / 8 off its chord; the angle is taken as 1. Rigid polygons and lines are straight: 0.
 template <int Dim> double bulge(const Surface<Dim>& surface);
@@ -52,6 +56,8 @@ public:
     /// Contact points with a gap below `reach`, in a fixed order; forces carry over from the last call.
     /// Points of the smaller body meet the larger one's faces; sharp corners of the larger meet the smaller's. Other
     /// points of the larger may enter by `allowance`, and no further: gaps count from there.
+    /// A grain against itself, both being its surface: points meet the faces that they face, and those that come earlier along
+    /// the boundary are in the place of the larger body.
     void update(const Surface<Dim>& first, const Surface<Dim>& second, double dt);
     /// The same for gaps below `near` [m].
     void look(const Surface<Dim>& first, const Surface<Dim>& second, double near);
@@ -106,6 +112,7 @@ extern template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, i
 extern template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 extern template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 extern template bool points_are_of_second<2>(const Surface<2>&, const Surface<2>&);
+extern template bool is_folded<2>(const Surface<2>&, bool);
 extern template double bulge<2>(const Surface<2>&);
 extern template double overlap<2>(const Surface<2>&, const Surface<2>&);
 extern template class PairContacts<2>;

@@ -104,6 +104,23 @@ bool crosses_itself(const Surface<2>& polyline)
     return false;
 }
 
+bool covers_itself(const Surface<2>& polyline, double depth)
+{
+    const int n = polyline.count;
+    for (int p = 0; p < n; ++p) {
+        const Vec<2> x = polyline.x(p) - depth * outward(polyline.x((p + 1) % n) - polyline.x((p + n - 1) % n)).normalized();
+        int winding = 0; // upward edges right of x, less downward ones
+        for (int i = 0; i < n; ++i) {
+            const Vec<2> a = polyline.x(i) - x, b = polyline.x((i + 1) % n) - x;
+            if ((a.y() > 0) == (b.y() > 0)) continue;
+            const double turn = a.x() * b.y() - a.y() * b.x();
+            if (b.y() > 0 ? turn > 0 : turn < 0) winding += b.y() > 0 ? 1 : -1;
+        }
+        if (winding > 1) return true;
+    }
+    return false;
+}
+
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
 {
     int best = 0;
@@ -116,6 +133,36 @@ int nearest_segment(const Surface<2>& polyline, const Vec<2>& x)
             least = distance;
             best = i;
         }
+    }
+    return best;
+}
+
+bool face_each_other(const Surface<2>& polyline, int vertex, int segment, const Vec<2>& place, const Vec<2>& normal,
+                     double depth)
+{
+    const int n = polyline.count, along = (vertex - segment + n) % n;
+    if (along <= 2 || along == n - 1) return false;
+    const Vec<2> x = polyline.x(vertex), across = place - x;
+    if (across.dot(normal) > depth) return false;
+    for (const Vec<2>& edge : { Vec<2>(x - polyline.x((vertex + n - 1) % n)), Vec<2>(polyline.x((vertex + 1) % n) - x) }) {
+        const Vec<2> own = outward(edge).normalized();
+        if (own.dot(normal) < 0 && across.dot(own) > -depth) return true;
+    }
+    return false;
+}
+
+int faced_segment(const Surface<2>& polyline, int vertex, double depth)
+{
+    const Vec<2> x = polyline.x(vertex);
+    int best = -1;
+    double least = 1e300;
+    for (int i = 0; i < polyline.count; ++i) {
+        const Vec<2> start = polyline.x(i), chord = polyline.x(i + 1 == polyline.count ? 0 : i + 1) - start;
+        const Vec<2> place = start + std::clamp((x - start).dot(chord) / chord.squaredNorm(), 0.0, 1.0) * chord;
+        const double distance = (x - place).squaredNorm();
+        if (distance >= least || !face_each_other(polyline, vertex, i, place, outward(chord).normalized(), depth)) continue;
+        least = distance;
+        best = i;
     }
     return best;
 }

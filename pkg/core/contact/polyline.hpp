@@ -39,6 +39,16 @@ Bend bend_at(const Surface<2>& polyline, int segment, double t);
 /// Whether chords of a closed polyline cross each other: the boundary has folded over itself.
 bool crosses_itself(const Surface<2>& polyline);
 
+/// Whether parts of the inside of a closed polyline lie on each other: a vertex, moved inwards by `depth` [m], is inside twice.
+bool covers_itself(const Surface<2>& polyline, double depth);
+
+/// A vertex and a place on another segment face each other across a gap, or have entered each other by no more than `depth`
+/// [m]: neither is behind the other, and the segment does not follow the vertex.
+bool face_each_other(const Surface<2>& polyline, int vertex, int segment, const Vec<2>& place, const Vec<2>& normal,
+                     double depth);
+/// The nearest segment that a vertex faces; -1: none.
+int faced_segment(const Surface<2>& polyline, int vertex, double depth);
+
 /// The segment nearest to x, by looking at all of them.
 int nearest_segment(const Surface<2>& polyline, const Vec<2>& x);
 

@@ -340,6 +340,18 @@ template <int Dim> Vec<Dim> Discretisation<Dim>::at_surface(int point, const dou
     return sum;
 }
 
+template <int Dim> bool Discretisation<Dim>::is_concave() const
+{
+    constexpr double straight = 1e-6; // sine of an angle
+    const size_t n = surface.size();
+    for (size_t p = 0; p < n; ++p) {
+        const Vec<Dim> before = (surface[p].position - surface[(p + n - 1) % n].position).normalized(),
+                       after = (surface[(p + 1) % n].position - surface[p].position).normalized();
+        if (before.x() * after.y() - before.y() * after.x() < -straight) return true;
+    }
+    return false;
+}
+
 template class Discretisation<2>;
 
 } // namespace softgrain

@@ -93,6 +93,8 @@ public:
     };
     std::vector<SurfaceStencil> surface_stencil;
     int surface_count() const { return int(surface.size()); }
+    /// The undeformed boundary turns inwards somewhere, so that it may come to meet itself.
+    bool is_concave() const;
 
     Moments<Dim> moments; ///< of the material points; equal to the outline's to round-off
 

@@ -121,10 +121,12 @@ void CondensedContacts<Dim>::assemble(std::vector<BarrierContact<Dim>>& contacts
                         * Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(
                                    &moved[size_t(share.point[k]) * Dim * Dim]);
                 const Mat<Dim> local = axes_a * between * frame(second).transpose();
-                if (a == b) first.compliance += local(0, 0);
+                const bool same = &first == &second; // if its sides differ, both are of one body: counts in both orders
+                const double times = same && a != b ? 2 : 1;
+                if (same) first.compliance += times * local(0, 0);
                 for (int i = 0; i < size_a; ++i)
                     for (int j = 0; j < size_b; ++j, ++place)
-                        if (a != b || j <= i) W_[size_t(*place)] += local(i, j);
+                        if (a != b || j <= i) W_[size_t(*place)] += (i == j ? times : 1) * local(i, j);
             }
         }
     }

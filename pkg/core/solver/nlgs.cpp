@@ -3,6 +3,7 @@
 
 #include "solver/rigid_balance.hpp"
 #include "solver/rigid_contacts.hpp"
+#include "solver/strips.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,34 +13,6 @@
 
 namespace softgrain {
 namespace {
-
-    /// Bodies in a strip, about: fewer make more contacts between strips, more leave threads without work.
-    constexpr int strip_bodies = 60;
-    constexpr int most_strips = 32;
-
-    /// Strip of each body along the longer side of the scene; null: a body without contacts.
-    template <int Dim> std::vector<int> strips_of(const std::vector<const Surface<Dim>*>& bodies)
-    {
-        Vec<Dim> lo = Vec<Dim>::Constant(1e300), hi = -lo;
-        int soft = 0;
-        for (const Surface<Dim>* body : bodies) {
-            if (!body || body->mobility == 0) continue;
-            ++soft;
-            lo = lo.cwiseMin(body->min);
-            hi = hi.cwiseMax(body->max);
-        }
-        const int count = std::clamp(soft / strip_bodies, 1, most_strips);
-        int axis = 0;
-        (hi - lo).maxCoeff(&axis);
-        const double length = std::max(hi[axis] - lo[axis], 1e-300);
-        std::vector<int> strips(bodies.size(), 0);
-        for (size_t b = 0; b < bodies.size(); ++b) {
-            if (!bodies[b]) continue;
-            const double middle = ((bodies[b]->min[axis] + bodies[b]->max[axis]) / 2 - lo[axis]) / length;
-            strips[b] = std::clamp(int(middle * count), 0, count - 1);
-        }
-        return strips;
-    }
 
     /// A contact as the sweeps need it, short, so that all of them stay in cache. Velocities of all bodies stand
     /// in one array.
@@ -303,7 +276,7 @@ private:
         for (size_t j = 0; j < block.count; ++j) {
             locals[j].response = group.responses.size();
             respond(*locals[j].contact, group.responses);
-            each_response(group, locals[j], [&](int point, double value) { scratch[point] = value; });
+            each_response(group, locals[j], [&](int at, double value) { scratch[at] += value; });
             for (size_t i = j; i < block.count; ++i) {
                 double value = scratch[locals[i].point];
                 for (int k = 0; k < face_vertices<Dim>; ++k)

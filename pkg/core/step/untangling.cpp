@@ -2,7 +2,7 @@
 #include "step/untangling.hpp"
 
 #include "base/skyline.hpp"
-#include "contact/polyline.hpp"
+#include "contact/narrow_phase.hpp"
 #include "step/stiffness_pattern.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -213,7 +213,7 @@ template <int Dim> void untangle(Grain<Dim>& grain, double least_J)
     const auto is_sound = [&] {
         way.hand_over(grain);
         grain.refresh();
-        return way.least_J() >= least_J * (1 - 1e-12) && !crosses_itself(grain.surface);
+        return way.least_J() >= least_J * (1 - 1e-12) && !is_folded(grain.surface, grain.mesh->is_concave());
     };
     if (is_sound()) return;
     way.straighten();

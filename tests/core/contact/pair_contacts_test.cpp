@@ -64,6 +64,74 @@ Surface<2> coarse_disc(double radius, double y)
     return surface_of(vertices);
 }
 
+/// A strip of a tenth of its way as thickness, wound up one and a half times with twice as much room between.
+std::vector<Vec<2>> spiral()
+{
+    std::vector<Vec<2>> vertices;
+    const auto along = [&](double angle, double out) {
+        const double radius = 0.6 + 0.3 * angle / (2 * M_PI) + out;
+        vertices.push_back(radius * Vec<2>(std::cos(angle), std::sin(angle)));
+    };
+    for (int k = 0; k <= 60; ++k)
+        along(k * M_PI / 20, 0.1);
+    for (int k = 60; k >= 0; --k)
+        along(k * M_PI / 20, 0);
+    return vertices;
+}
+
+/// Times that a closed polyline goes around x.
+int winding(const Surface<2>& surface, const Vec<2>& x)
+{
+    double angle = 0;
+    for (int i = 0; i < surface.count; ++i) {
+        const Vec<2> a = surface.x(i) - x, b = surface.x((i + 1) % surface.count) - x;
+        angle += std::atan2(cross(a, b), a.dot(b));
+    }
+    return int(std::lround(angle / (2 * M_PI)));
+}
+
+// Points of one side of a thin wall stand off the other side by its thickness, through the material: these are no contacts.
+TEST(PairContacts, OfAGrainWithItselfLieAcrossTheOpen)
+{
+    auto shapes = polygons();
+    shapes.push_back({ "spiral", spiral() });
+    for (const auto& [name, vertices] : shapes) {
+        const PolygonOutline outline(vertices);
+        const Surface<2> surface = surface_of(outline, 0.07);
+        PairContacts<2> pair;
+        pair.look(surface, surface, 0.8);
+        for (const auto& contact : pair.points) {
+            Vec<2> foot = Vec<2>::Zero();
+            for (int k = 0; k < 4; ++k)
+                foot += contact.weight[k] * surface.x(contact.vertex[k]);
+            const Vec<2> x = surface.x(contact.point);
+            EXPECT_GT(contact.gap, 0) << name;
+            EXPECT_EQ(contact.on_second, contact.point < contact.face) << name;
+            for (double share : { 0.1, 0.5, 0.9 })
+                EXPECT_EQ(winding(surface, x + share * (foot - x)), 0) << name << ", point " << contact.point;
+        }
+        std::printf("%s: %d contact points\n", name.c_str(), int(pair.points.size()));
+        EXPECT_EQ(pair.points.empty(), name != "U" && name != "spiral") << name;
+    }
+}
+
+// A U whose arms have come together by a little more than the way between them, and by more than a quarter of the points' distance.
+TEST(PairContacts, OfAGrainWithItselfLetPassLittle)
+{
+    for (const auto& [depth, deep] : { std::pair(0.003, false), std::pair(0.3, true) }) {
+        const PolygonOutline u(polygons()[6].second);
+        Surface<2> surface = surface_of(u, 0.1);
+        EXPECT_FALSE(is_folded(surface, false));
+        const double inner = 0.5 / u.scale();
+        for (int p = 0; p < surface.count; ++p) {
+            const double x = surface.x(p).x(), up = std::max(0.0, surface.x(p).y() + 0.2); // arms bend inwards
+            surface.position[2 * p] -= (x > 0 ? 1 : -1) * (inner + depth) * std::min(1.0, 2 * up);
+        }
+        EXPECT_TRUE(is_folded(surface, false));
+        EXPECT_EQ(is_folded(surface, true), deep);
+    }
+}
+
 // Between its lowest points the disc reaches down to -1, its points to -cos(pi / 14) = -0.975.
 TEST(PairContacts, SeeTheOutlineThatReachesOutOfTheBoxOfItsPoints)
 {

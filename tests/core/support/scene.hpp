@@ -44,16 +44,16 @@ protected:
     void assemble(std::vector<Grain<2>*> members)
     {
         assembly_.emplace(std::move(members));
-        pairs_.resize(grains.size() * (grains.size() - 1) / 2);
+        pairs_.resize(grains.size() * (grains.size() + 1) / 2);
         plane_pairs_.resize(planes.size() * grains.size());
     }
-    /// Calls visit(contacts, i, j) for every two grains i < j.
+    /// Calls visit(contacts, i, j) for every two grains i < j, and i = j for grains that may meet themselves.
     template <class Visit> void each_pair(Visit visit)
     {
         size_t pair = 0;
         for (size_t i = 0; i < grains.size(); ++i)
-            for (size_t j = i + 1; j < grains.size(); ++j)
-                visit(pairs_[pair++], i, j);
+            for (size_t j = i; j < grains.size(); ++j, ++pair)
+                if (i != j || (grains[i].mesh->is_concave() && !grains[i].updated)) visit(pairs_[pair], i, j);
     }
     /// Calls visit(contacts, w, i) for every plane w and grain i.
     template <class Visit> void each_plane_pair(Visit visit)
@@ -71,7 +71,7 @@ protected:
     }
 
 private:
-    std::vector<PairContacts<2>> pairs_;        ///< of i < j
+    std::vector<PairContacts<2>> pairs_;        ///< of i <= j
     std::vector<PlaneContacts<2>> plane_pairs_; ///< [plane][grain]
 };
 
