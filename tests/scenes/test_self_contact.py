@@ -33,7 +33,7 @@ def press(friction=0.0, skew=0.15, **options):
     return O.bodies[0]
 
 
-def shut(until=0.34):
+def shut(until=0.31):
     """Presses on until each wall has gone so far [SIZE]; the force of a wall at its end [N/m]."""
     while O.time < until * SIZE / SPEED:
         O.step()
@@ -70,7 +70,7 @@ def goes_on_the_same(checks):
         ends = []
         for broken in (False, True):
             press(0.3, **options)
-            shut(0.3)
+            shut(0.28)
             if broken:
                 with Folder() as folder:
                     path = os.path.join(folder, "scene.xml")

@@ -39,8 +39,8 @@ template <int Dim> Bend bend_below(const Surface<Dim>& mine, const Surface<Dim>&
 /// where lines join, points on them hold the body, not the joint.
 template <int Dim> double allowance(const Surface<Dim>& larger, int point, const Surface<Dim>& smaller);
 
-/// Whether the boundary of a grain has folded over itself; or, where it may come to meet itself, passed through itself by more
-/// than is let pass.
+/// Whether the boundary of a grain has folded over itself, or passed through itself: by more than is let pass where it may come to
+/// meet itself.
 template <int Dim> bool is_folded(const Surface<Dim>& surface, bool may_meet_itself);
 
 /// How far the outline may reach out of the box of its points [m]. The middle of a segment of length s that turns by an angle is

@@ -76,6 +76,20 @@ namespace {
         }
     };
 
+    /// Whether the chords of two segments cross each other.
+    bool cross(const Surface<2>& polyline, int first, int second)
+    {
+        const int n = polyline.count;
+        const Vec<2> a = polyline.x(first), b = polyline.x((first + 1) % n), c = polyline.x(second),
+                     d = polyline.x((second + 1) % n);
+        if ((c.cwiseMax(d).array() < a.cwiseMin(b).array()).any() || (c.cwiseMin(d).array() > a.cwiseMax(b).array()).any())
+            return false;
+        const auto side = [](const Vec<2>& from, const Vec<2>& to, const Vec<2>& x) {
+            return (to.x() - from.x()) * (x.y() - from.y()) - (to.y() - from.y()) * (x.x() - from.x());
+        };
+        return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+    }
+
 } // namespace
 
 Bend bend_at(const Surface<2>& polyline, int segment, double t)
@@ -89,18 +103,9 @@ Bend bend_at(const Surface<2>& polyline, int segment, double t)
 bool crosses_itself(const Surface<2>& polyline)
 {
     const int n = polyline.count;
-    const auto side = [](const Vec<2>& from, const Vec<2>& to, const Vec<2>& x) {
-        return (to.x() - from.x()) * (x.y() - from.y()) - (to.y() - from.y()) * (x.x() - from.x());
-    };
-    for (int i = 0; i + 2 < n; ++i) {
-        const Vec<2> a = polyline.x(i), b = polyline.x(i + 1);
-        const Vec<2> lo = a.cwiseMin(b), hi = a.cwiseMax(b);
-        for (int j = i + 2; j < n - (i == 0); ++j) { // neighbours share a vertex
-            const Vec<2> c = polyline.x(j), d = polyline.x((j + 1) % n);
-            if ((c.cwiseMax(d).array() < lo.array()).any() || (c.cwiseMin(d).array() > hi.array()).any()) continue;
-            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
-        }
-    }
+    for (int i = 0; i + 2 < n; ++i)
+        for (int j = i + 2; j < n - (i == 0); ++j) // neighbours share a vertex
+            if (cross(polyline, i, j)) return true;
     return false;
 }
 
@@ -108,6 +113,7 @@ bool covers_itself(const Surface<2>& polyline, double depth)
 {
     const int n = polyline.count;
     for (int p = 0; p < n; ++p) {
+        if (cross(polyline, p, (p + 2) % n) || cross(polyline, p, (p + 3) % n)) return true;
         const Vec<2> x = polyline.x(p) - depth * outward(polyline.x((p + 1) % n) - polyline.x((p + n - 1) % n)).normalized();
         int winding = 0; // upward edges right of x, less downward ones
         for (int i = 0; i < n; ++i) {

@@ -39,7 +39,8 @@ Bend bend_at(const Surface<2>& polyline, int segment, double t);
 /// Whether chords of a closed polyline cross each other: the boundary has folded over itself.
 bool crosses_itself(const Surface<2>& polyline);
 
-/// Whether parts of the inside of a closed polyline lie on each other: a vertex, moved inwards by `depth` [m], is inside twice.
+/// Whether parts of the inside of a closed polyline lie on each other: a vertex, moved inwards by `depth` [m], is inside twice,
+/// or chords cross that have one or two others between them.
 bool covers_itself(const Surface<2>& polyline, double depth);
 
 /// A vertex and a place on another segment face each other across a gap, or have entered each other by no more than `depth`
