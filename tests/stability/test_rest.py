@@ -11,7 +11,6 @@ from softgrain import arrays, measures  # noqa: E402
 G = (0, -9.81, 0)
 METHODS = ("explicit", "updated", "implicit", "quasistatic")
 MOST_SWEEPS = 100
-TOUCH = "flat faces that just touch: steps find no balance; the run stops with a sentence"
 
 
 def soft(size):
@@ -60,4 +59,4 @@ def heap(size):
 
 run_cases(*[(f"{name}, size {1e3 * size:g} mm", METHODS, make(size))
             for name, make in (("stack of 3 squares", stack), ("heap of 6 discs", heap)) for size in (1e-2, 1e-3, 1e-4)],
-          known=[("heap", "updated", GRID_LAID_ANEW), ("stack of 3 squares, size 0.1", "implicit", TOUCH)])
+          known=[("heap", "updated", GRID_LAID_ANEW)])
