@@ -11,16 +11,6 @@ namespace yade {
 
 namespace {
     Vector3r inSpace(const softgrain::Vec<2>& v) { return Vector3r(v[0], v[1], 0); }
-
-    /// Gives the contact that was added last the offset of Newton's law.
-    void rebound(const softgrain::ContactPoint<2>& point, const SoftPhys& phys, softgrain::ContactProblem<2>& problem)
-    {
-        using Surface = softgrain::Surface<2>;
-        auto& contact = problem.contacts.back();
-        contact.offset = softgrain::NewtonImpact<2> { phys.en, phys.et }.offset(
-            point, contact.offset, problem.relative(contact, &Surface::velocity_before),
-            problem.relative(contact, &Surface::velocity));
-    }
 } // namespace
 
 void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching, bool goOn)
@@ -72,8 +62,8 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
             auto& surface = pair.geom->rigid;
             surface.rigid = pair.mover ? free_.take(pair.mover, *pair.second, surface, moved) : nullptr;
         }
-        const std::vector<double> pulled = pair.phys->adheres() ? pullsOf(pair, kick) : std::vector<double>();
-        size_t index = 0;
+        const size_t first = problem.contacts.size();
+        const auto pulled = pair.phys->adheres() ? pullsOf(pair, kick) : std::vector<double>(); // contacts change surfaces
         for (const auto& point : pair.geom->points()) {
             deepest = std::max(deepest, -point.gap / pair.size());
             softgrain::Contact<2> contact;
@@ -86,13 +76,27 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
             contact.law = pair.phys->law;
             contact.impulse = kick * point.force;
             problem.add(contact);
-            if (pair.phys->rebounds()) rebound(point, *pair.phys, problem);
-            if (!pulled.empty()) pull(pair, pulled[index++], kick);
         }
+        if (pair.phys->rebounds()) rebound(pair, first);
+        for (size_t i = 0; i < pulled.size(); ++i)
+            if (pulled[i] > 0) pull(pair, problem.contacts[first + i], pulled[i], kick);
     }
     if (!pulls.contacts.empty()) pulls.bodies = problem.bodies;
     rigid.pose(scene, free_, problem, kick, recovery, moved);
     deepest = std::max(deepest, rigid.deepest());
+}
+
+/// Gives the contacts of a pair, from the first on, the offsets of Newton's law.
+void SoftPairs::rebound(const Pair& pair, size_t first)
+{
+    using Surface = softgrain::Surface<2>;
+    const softgrain::NewtonImpact<2> law { pair.phys->en, pair.phys->et };
+    auto contact = problem.contacts.begin() + std::ptrdiff_t(first);
+    for (const auto& point : pair.geom->points()) {
+        contact->offset = law.offset(point, contact->offset, problem.relative(*contact, &Surface::velocity_before),
+                                     problem.relative(*contact, &Surface::velocity));
+        ++contact;
+    }
 }
 
 std::vector<double> SoftPairs::pullsOf(const Pair& pair, double kick) const
@@ -110,13 +114,12 @@ std::vector<double> SoftPairs::pullsOf(const Pair& pair, double kick) const
     return all;
 }
 
-/// Adhesion pulls at the contact that was added last.
-void SoftPairs::pull(Pair& pair, double impulse, double kick)
+/// Adhesion pulls at a contact of the problem.
+void SoftPairs::pull(Pair& pair, softgrain::Contact<2> contact, double impulse, double kick)
 {
-    if (impulse == 0) return;
-    auto contact = problem.contacts.back();
     const auto& body = *problem.bodies[contact.body];
-    if (body.rigid && body.kind == softgrain::Surface<2>::Kind::round) // across a gap its point's radius misses the foot
+    const bool ofSphere = body.rigid && body.kind == softgrain::Surface<2>::Kind::round && pair.mover->id == pair.id1;
+    if (ofSphere) // across a gap the radius of its point misses the foot, and would turn it
         contact.normal = (body.rigid->centre - body.x(contact.point)).normalized();
     contact.impulse = -impulse * contact.normal;
     contact.friction = 0;

@@ -110,7 +110,8 @@ public:
 private:
     void take(const Scene& scene, TouchingPair&& touching);
     std::vector<double> pullsOf(const Pair& pair, double kick) const;
-    void pull(Pair& pair, double impulse, double kick);
+    void pull(Pair& pair, softgrain::Contact<2> contact, double impulse, double kick);
+    void rebound(const Pair& pair, size_t first);
     void refuseLeak(const Pair& pair, Real depth, Real most) const;
 
     const SoftBodies& soft_;

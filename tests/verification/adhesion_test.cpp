@@ -46,6 +46,10 @@ TEST(Adhesion, ABlockComesOffAtTheTensionTimesItsSide)
     do {
         block.gravity.y() = rate / mass * block.time;
         block.step(block.step_length);
+        double bound = 0;
+        for (const auto& contact : block.pulls.contacts)
+            bound -= contact.impulse.y() / block.dt;
+        ASSERT_LE(block.plane_force[0].y(), bound * (1 + 1e-14));
         most = std::max(most, block.plane_force[0].y());
     } while (!block.pulls.contacts.empty() && block.time < 30);
     const double expected = whole + rate * std::cbrt(6 * law.range * mass / rate);

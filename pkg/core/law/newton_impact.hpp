@@ -3,6 +3,8 @@
 
 #include "contact/narrow_phase.hpp"
 
+#include <algorithm>
+
 namespace softgrain {
 
 /// Newton's law of impact in the form of Moreau 1994: where a point comes into touch within the step,
