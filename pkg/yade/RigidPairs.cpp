@@ -37,6 +37,7 @@ void RigidPairs::pose(const Scene& scene, FreeBodies& free, softgrain::ContactPr
         std::tie(contact.body, contact.point)
             = mover2 ? side(mover2, pair.twist2, pair.id1) : side(mover1, pair.twist1, pair.id2);
         contact.other = -1;
+        contact.drive = softgrain::Vec<2>::Zero();
         contact.weight[0] = 1;
         if (mover1 && mover2)
             std::tie(contact.other, contact.vertex[0]) = side(mover1, pair.twist1, pair.id2);
