@@ -12,7 +12,7 @@ namespace {
 
     constexpr double most_penetration = 1e-5; ///< [radius of the smaller body]
     constexpr int most_firmer = 8;
-    constexpr double slipping = 0.99; ///< of what friction bears: above, a contact slides
+    constexpr double most_creep = 10; ///< [tolerance times what the contact gives way elastically]
 
 } // namespace
 
@@ -364,10 +364,10 @@ template <int Dim> void ImplicitStep<Dim>::fill_problem(double dt)
         contact.friction = from.friction;
         contact.law = nullptr;
         // points that stand off bear no force but what the barrier leaves
-        const bool pressed = from.force > stiffness * from.gap,
-                   sticks = std::abs(from.shear) < slipping * from.friction * from.force;
+        const bool pressed = from.force > stiffness * from.gap;
         contact.impulse = pressed ? Vec<Dim>(length * from.total()) : Vec<Dim>(Vec<Dim>::Zero());
-        from.creep = pressed && sticks ? from.slide : 0;
+        const double most = most_creep * settings_.tolerance * std::min(from.friction, 1.0) * from.force * from.compliance;
+        from.creep = pressed ? std::clamp(from.slide, -most, most) : 0;
         contact.inertia = length * dt * (from.compliance > 0 ? 1 / from.compliance : stiffness);
         const double rate = problem.relative(contact, &Surface<Dim>::velocity).dot(contact.normal);
         contact.offset = (from.gap / dt - rate) * from.normal;

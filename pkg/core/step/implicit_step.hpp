@@ -28,7 +28,7 @@ public:
 /// Coulomb's friction is smoothed by the same kappa: a contact that slides by d bears the force
 ///     t = - b^2 d / (kappa + sqrt(kappa^2 + b^2 d^2)),    b = mu_f r,
 /// which tends to sticking below b and sliding at b. b follows r from iteration to iteration; the step ends when
-/// both agree. A contact that sticks slides a little all the same; d goes on counting in the next step, or such slides would add
+/// both agree. Points that stick slide a little all the same; d goes on counting in the next step, or such slides would add
 /// up with the number of steps. Gaps, normals and feet are those of the places that the iterations try.
 template <int Dim> class ImplicitStep {
 public:
