@@ -84,12 +84,30 @@ def squeeze(checks):
 
 def rigid_compaction(checks):
     with Folder() as folder:
-        run = run_example(folder, "rigid_compaction.py", "--quick")
-        checks.that("rigid_compaction --quick", run.returncode == 0, said(run))
-        out = os.path.join(folder, "rigid_compaction")
-        checks.that("columns", header(os.path.join(out, "rigid_compaction.csv")) == COMPACTION)
-        table = read_table(os.path.join(out, "rigid_compaction.csv"))
-        checks.that("volume does not change", abs(table["log_volume_change"]).max() < 1e-12)
+        for law in ("yade", "cd"):
+            run = run_example(folder, "rigid_compaction.py", "--quick", "--law", law, "--out", law)
+            checks.that(f"rigid_compaction --quick --law {law}", run.returncode == 0, said(run))
+            out = os.path.join(folder, law)
+            checks.that("columns", header(os.path.join(out, "rigid_compaction.csv")) == COMPACTION)
+            table = read_table(os.path.join(out, "rigid_compaction.csv"))
+            checks.that("volume does not change", abs(table["log_volume_change"]).max() < 1e-12)
+
+
+def soft_vs_rigid(checks):
+    with Folder() as folder:
+        run = run_example(folder, "soft_vs_rigid.py", "--quick", "--out", "both")
+        checks.that("soft_vs_rigid --quick", run.returncode == 0, said(run))
+        out = os.path.join(folder, "both")
+        rows = {row["case"]: row for row in read_rows(os.path.join(out, "soft_vs_rigid.csv"))}
+        checks.that("a row a run", len(rows) == 4, rows)
+        checks.that("stiff and rigid discs jam alike",
+                    abs(rows["rigid Contact Dynamics"]["jamming_fraction"]
+                        - rows["Cundall-Strack 500 MPa"]["jamming_fraction"]) < 0.02,
+                    rows)
+        departures = read_json(os.path.join(out, "summary.json"))["departures"]
+        checks.that("rigid discs depart from soft ones", all(departure["stress"] < 0.9 for departure in departures.values()),
+                    departures)
+        checks.that("figure", os.path.getsize(os.path.join(out, "figure1.png")) > 10000)
 
 
 def packing_scatter(checks):
@@ -109,4 +127,4 @@ def packing_scatter(checks):
                                                             if row["coordination_deviation"] == row["coordination_deviation"]))
 
 
-run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction, packing_scatter)
+run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction, soft_vs_rigid, packing_scatter)
