@@ -164,7 +164,7 @@ def add_method(parser):
     group.add_argument("--theta", type=theta, default=1.0, metavar="THETA", help="implicit: weight of a step's end, 0.5 to 1")
     group.add_argument("--quasistatic", action="store_true", help="implicit, without inertia")
     group.add_argument("--formulation", choices=("total", "updated"), default="total",
-                       help="Lagrangian in the undeformed grain, or updated: state on the points, grid laid anew each step")
+                       help="Lagrangian in the undeformed grain, or updated: a grid laid anew once cells are out of shape")
     group.add_argument("--dt", type=positive, default=None, metavar="S",
                        help="time step, the largest of implicit ones; None: chosen automatically")
     group.add_argument("--safety", type=positive, default=0.8, metavar="SHARE",

@@ -59,7 +59,7 @@ public:
                      formulation,
                      "total",
                      Attr::triggerPostLoad,
-                     "'total': Lagrangian in the undeformed grain; 'updated': the points carry the state, the grid stands still in space."))(
+                     "'total': Lagrangian in the undeformed grain; 'updated': in the grain as its grid was last laid, which is done anew once cells are out of shape."))(
                     (bool,
                      meanDilatation,
                      true,

@@ -188,9 +188,8 @@ void SoftPairs::refuseLeaks(Real most) const
         if (state->grain.mesh->is_concave() && state->folded())
             throw softgrain::SimulationError(
                 "soft grain #" + std::to_string(state->grain.id)
-                + ": its boundary has passed through itself; likely causes: a grain pressed beyond "
-                  "what its resolution can follow, an impact near the wave speed, or the "
-                  "updated-Lagrangian form, which knows no contact of a grain with itself.");
+                + ": its boundary has passed through itself; likely causes: a grain pressed beyond what its resolution can "
+                  "follow, or an impact near the wave speed.");
 }
 
 /// The answer is worth nothing from here on.

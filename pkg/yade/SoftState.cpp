@@ -112,7 +112,7 @@ void SoftState::prepare(const Body& body)
         fresh.surface.ahead = ahead;
     }
     grain = fresh;
-    if (grain.mesh->is_concave() && !grain.updated && !withItself) withItself.reset(new SoftGeom);
+    if (grain.mesh->is_concave() && !withItself) withItself.reset(new SoftGeom);
     known_ = body.material;
     mass = grain.mass();
     inertia = Vector3r::Constant(grain.motion.second_moment.trace());
@@ -129,7 +129,7 @@ bool SoftState::takeSaved(softgrain::Grain<2>& fresh) const
     fresh.origin = origin;
     if (fresh.updated) {
         fresh.updated->place(*fresh.mesh, softgrain::Mat<2>::Identity());
-        return fresh.updated->unpack(pointState);
+        return fresh.updated->unpack(*fresh.mesh, pointState);
     }
     fresh.displacement = nodeDisplacement;
     fresh.velocity = nodeVelocity;

@@ -13,7 +13,7 @@ namespace yade {
 
 class SoftState : public State {
 public:
-    static constexpr int currentFormat = 4; ///< of the saved fields
+    static constexpr int currentFormat = 5; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
     Real insideUntil = 0;    ///< travel of its surface up to which its bound surely holds it [m]
@@ -90,8 +90,8 @@ public:
                      pointState,
                      ,
                      Attr::hidden,
-                     "Of an updated-Lagrangian grain instead: positions, velocities, deformation gradients and their rates at the points, positions "
-                     "of the surface points, spin, in units of the radius."))(
+                     "Of an updated-Lagrangian grain instead: positions of points and surface points and deformation gradients as the grid was "
+                     "laid, positions and velocities of its nodes, in units of the radius."))(
                     (Vector3r, savedPos, Vector3r::Zero(), Attr::hidden, "What pos held when saved [m]."))(
                     (Vector3r, savedVel, Vector3r::Zero(), Attr::hidden, "What vel held when saved [m/s]."))(
                     (Vector3r, savedAngVel, Vector3r::Zero(), Attr::hidden, "What angVel held when saved [rad/s]."))(
@@ -105,7 +105,7 @@ public:
                      withItself,
                      ,
                      Attr::hidden,
-                     "Contact points with itself, of a total-Lagrangian grain whose undeformed outline is concave; else none."))(
+                     "Contact points with itself, of a grain whose undeformed outline is concave; else none."))(
                     (Real, travel, 0, Attr::hidden, "Bound on the path of any surface point since the start [m]."))(
                     (Real, ahead, 0, Attr::hidden, "How far to look for contacts besides what speeds tell [m]."))(
                     (int, format, currentFormat, Attr::hidden, "Version of the saved fields [-].")),

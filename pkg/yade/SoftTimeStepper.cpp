@@ -12,8 +12,7 @@ namespace yade {
 YADE_PLUGIN((SoftTimeStepper));
 
 namespace {
-    /// Before the integrator's first step [s]; NaN without grains.
-    Real firstStep(const Scene& scene)
+    std::vector<softgrain::Grain<2>*> grainsOf(const Scene& scene)
     {
         std::vector<softgrain::Grain<2>*> grains;
         for (const auto& body : *scene.bodies)
@@ -21,7 +20,17 @@ namespace {
                 state->prepare(*body);
                 grains.push_back(&state->grain);
             }
-        return grains.empty() ? NaN : softgrain::SmallestCriticalStep<2>()(grains, omp_get_max_threads());
+        return grains;
+    }
+
+    /// Time in which no surface point passes more than this share of a cell [s].
+    Real stepBySpeed(const std::vector<softgrain::Grain<2>*>& grains)
+    {
+        constexpr Real share = 0.04;
+        Real least = 1e300;
+        for (const auto* grain : grains)
+            least = std::min(least, share * grain->mesh->cell_width * grain->radius / grain->surface.speed);
+        return least;
     }
 } // namespace
 
@@ -36,8 +45,11 @@ void SoftTimeStepper::computeTimeStep(Scene* scene)
             integrator->evaluate();
             limit = integrator->criticalStep;
         }
-    if (std::isnan(limit)) limit = firstStep(*scene);
-    if (std::isnan(limit)) return;
+    const auto grains = grainsOf(*scene);
+    if (std::isnan(limit)) {
+        if (grains.empty()) return;
+        limit = softgrain::SmallestCriticalStep<2>()(grains, omp_get_max_threads());
+    }
     if (std::isinf(limit))
         throw std::runtime_error(
             "SoftTimeStepper: no soft grain says how long a step may be; set O.dt, as by softEngines(dt=...), "
@@ -46,7 +58,8 @@ void SoftTimeStepper::computeTimeStep(Scene* scene)
     const Real change = lastLimit > 0 ? std::min(std::abs(std::log(limit / lastLimit)), most) : 0;
     unrest = std::max(change, kept * unrest);
     lastLimit = limit;
-    scene->dt = stepAt(limit);
+    constexpr Real least = 0.1; // what flies as fast as that is for a guard to stop
+    scene->dt = std::min(stepAt(limit), std::max(stepBySpeed(grains), least * limit));
 }
 
 /// Symplectic Euler is stable below omega dt = 2, but modes at sqrt(2) and sqrt(3) resonate with their own nonlinearity (Schlick,

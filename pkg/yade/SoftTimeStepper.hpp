@@ -16,7 +16,8 @@ public:
             TimeStepper,
             "Keeps O.dt at safety times SoftIntegrator.criticalStep, the largest stable step of the soft grains: 2/ω of their stiffest mode as they "
             "are deformed. Where that limit changes quickly, as in grains that vibrate hard, steps stay below 0.6 of it: their stiffest "
-            "modes would draw energy from nowhere.",
+            "modes would draw energy from nowhere. No point of a surface passes more than 0.04 cells in a step, which "
+            "shortens those of impacts near the wave speed to 0.1 of the stable step at most.",
             ((Real, safety, 0.8, , "Fraction of the stable step [-]; beyond 0.9 steps may turn unstable as grains deform."))(
                     (Real, lastLimit, NaN, Attr::readonly, "Stable step when O.dt was set last [s]."))(
                     (Real,

@@ -11,7 +11,7 @@ from stability import GRID_LAID_ANEW, RADIUS, block, disc, plate, run_cases  # n
 from softgrain import arrays  # noqa: E402
 
 SPEEDS = (1, 10, 100)
-FAST = "three times as fast as shear waves; 0.2 of the stable step resolves it"
+FOLDED = "the boundary folds over itself where the grain is pressed to a tenth"
 METHODS = ("explicit", "updated", "implicit")
 CONTACT = 12 * RADIUS / 35     # lasts about as long as a few shear waves through the grain [s]
 
@@ -76,8 +76,7 @@ run_cases(*[(f"{name}, {speed} m/s", METHODS, make(speed)) for name, make in IMP
           *[(f"0.2 of the stable step, {name}, {SPEEDS[-1]} m/s", ("explicit",), make(SPEEDS[-1], safety=0.2))
             for name, make in IMPACTS],
           (f"theta 1/2, impact of two grains off centre, {SPEEDS[-1]} m/s", ("implicit",), on_grain(SPEEDS[-1], theta=0.5)),
-          known=[*[(f"{name}, {speed} m/s", "updated", GRID_LAID_ANEW) for speed in SPEEDS[1:] for name in
-                   ("impact on a wall", "impact of two grains off centre", "impact on a thin box")],
-                 ("impact on a wall, 100", "explicit", FAST), ("impact on a thin box, 100", "explicit", FAST),
-                 ("impact of two grains off centre, 100", "explicit", FAST),
+          known=[("0.2 of the stable step, impact on a thin box", "explicit", FOLDED),
+                 ("impact on a thin box, 100", "explicit", FOLDED),
+                 ("impact on a wall, 100", "updated", GRID_LAID_ANEW), ("impact on a thin box, 100", "updated", GRID_LAID_ANEW),
                  ("impact of two grains off centre, 100", "implicit", "order 1 does not conserve angular momentum; order 2 does")])

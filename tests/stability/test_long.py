@@ -7,7 +7,7 @@ import resource
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from stability import GRID_LAID_ANEW, LONG, RADIUS, disc, drive, gel, plate, run_cases, square_box  # noqa: E402
+from stability import LONG, RADIUS, disc, drive, gel, plate, run_cases, square_box  # noqa: E402
 from softgrain import arrays, softCloud  # noqa: E402
 from yade import O  # noqa: E402
 
@@ -69,5 +69,4 @@ def shaken(run):
 
 run_cases((f"spinning grain, {STEPS} steps", ("explicit", "updated"), spinning),
           (f"bouncing grain, {STEPS} steps", ("explicit", "updated"), bouncing),
-          (f"shaken packing, {STEPS} steps", ("explicit", "updated"), shaken),
-          known=[(start, "updated", GRID_LAID_ANEW) for start in ("spinning", "bouncing", "shaken")])
+          (f"shaken packing, {STEPS} steps", ("explicit", "updated"), shaken))

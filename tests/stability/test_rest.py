@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from stability import GRID_LAID_ANEW, disc, gel, plate, polygon, run_cases, square_box  # noqa: E402
+from stability import disc, gel, plate, polygon, run_cases, square_box  # noqa: E402
 from softgrain import arrays, measures  # noqa: E402
 
 G = (0, -9.81, 0)
@@ -58,5 +58,4 @@ def heap(size):
 
 
 run_cases(*[(f"{name}, size {1e3 * size:g} mm", METHODS, make(size))
-            for name, make in (("stack of 3 squares", stack), ("heap of 6 discs", heap)) for size in (1e-2, 1e-3, 1e-4)],
-          known=[("heap", "updated", GRID_LAID_ANEW)])
+            for name, make in (("stack of 3 squares", stack), ("heap of 6 discs", heap)) for size in (1e-2, 1e-3, 1e-4)])

@@ -136,7 +136,7 @@ TEST(Adhesion, GrainsStickAndKeepTheirMomenta)
                     friction, updated ? ", updated form" : "", momentum, angular, residual);
         EXPECT_LE(momentum, 1e-12);
         EXPECT_LE(std::abs(angular), friction > 0 ? 1e-4 : 1e-11);
-        EXPECT_LE(std::abs(residual), updated ? 0.1 : 0.01); // a new grid holds another part of the motion
+        EXPECT_LE(std::abs(residual), 0.01);
         EXPECT_FALSE(world.pulls.contacts.empty()) << "they have parted";
         EXPECT_LT(work, 0);
     }

@@ -22,6 +22,7 @@ struct Squeeze {
     double min_J = 1, deepest = 0, residual = 0; ///< smallest J; deepest gap [m]; energy not accounted for, relative
     double off_middle = 0;                       ///< how far from the middle two discs meet [m]
     int steps = 0;
+    int new_grids = 0; ///< laid by a grain in the updated-Lagrangian form after the first
 };
 
 /// Offset of the grid [cell widths] and turn of the grain.
@@ -63,7 +64,9 @@ inline Squeeze squeeze(const SqueezeCase& c)
     const auto squeeze_now = [&] { return 1 - world.planes[1].position / half; };
     while (squeeze_now() < c.until + c.window / 2) {
         const double before = squeeze_now();
+        const Mat<2> carried = c.updated ? world.grains[0].updated->carried()[0] : Mat<2>(Mat<2>::Zero());
         world.step(dt);
+        if (c.updated) result.new_grids += world.grains[0].updated->carried()[0] != carried;
         dissipated += world.dissipated().plastic;
         // two discs on each other are unstable: without friction one slides off the other, at a rate of sqrt(F / m R)
         if (c.discs > 1 && world.steps % 5 == 0) world.guide();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grid/point_grid.hpp"
 
-#include "base/skyline.hpp"
 #include "grid/bspline.hpp"
 #include "grid/extrapolation.hpp"
 
@@ -214,35 +213,6 @@ void PointGrid<Dim>::bind_slaves(const Window& window, const std::vector<int>& n
         }
         link_row_.push_back(int(links_.size()));
     }
-}
-
-template <int Dim>
-void PointGrid<Dim>::project(const std::vector<double>& masses, const std::vector<Vec<Dim>>& point_velocity,
-                             std::vector<Vec<Dim>>& node_velocity) const
-{
-    const int points = int(point_row.size()) - 1;
-    std::vector<int> first(node_count());
-    for (int i = 0; i < node_count(); ++i)
-        first[i] = i;
-    for (int p = 0; p < points; ++p) {
-        int least = node_count();
-        for (int k = point_row[p]; k < point_row[p + 1]; ++k)
-            least = std::min(least, entry[k].node);
-        for (int k = point_row[p]; k < point_row[p + 1]; ++k)
-            first[entry[k].node] = std::min(first[entry[k].node], least);
-    }
-    SkylineCholesky mass(first);
-    node_velocity.assign(node_count(), Vec<Dim>::Zero());
-    for (int p = 0; p < points; ++p)
-        for (int k = point_row[p]; k < point_row[p + 1]; ++k) {
-            const double share = masses[p] * entry[k].weight;
-            node_velocity[entry[k].node] += share * point_velocity[p];
-            for (int l = point_row[p]; l < point_row[p + 1]; ++l)
-                if (entry[l].node <= entry[k].node) mass.at(entry[k].node, entry[l].node) += share * entry[l].weight;
-        }
-    if (!mass.factorise())
-        throw SimulationError("its material points have moved so that they no longer determine the velocities of its grid");
-    mass.solve(node_velocity);
 }
 
 template class PointGrid<2>;

@@ -30,11 +30,6 @@ public:
     std::vector<typename SurfaceOperator<Dim>::Row> surface_row; ///< of each surface point
     SurfaceOperator<Dim> response;                               ///< of the surface
 
-    /// Velocities of the nodes whose interpolation is nearest to the points', weighted by mass: M v = sum over the points
-    /// of m_p N_i(x_p) v_p, with the consistent mass matrix M = sum over the points of m_p N_i N_j.
-    void project(const std::vector<double>& masses, const std::vector<Vec<Dim>>& point_velocity,
-                 std::vector<Vec<Dim>>& node_velocity) const;
-
 private:
     using Index = Eigen::Matrix<int, Dim, 1>;
     struct Window; ///< the cells in reach of the points

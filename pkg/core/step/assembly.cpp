@@ -94,7 +94,7 @@ namespace {
         grain.read_velocities(surface.velocity);
     }
 
-    /// Lays the grid anew where the points of a grain have gone, if they have gone anywhere; what is wrong with that.
+    /// Surface and motion of a grain whose nodes have moved, and its grid anew where that is due; what is wrong with that.
     template <int Dim> std::string settle_updated(Grain<Dim>& grain, bool gone)
     {
         if (!gone) {
@@ -131,13 +131,13 @@ namespace {
     /// Nodes have been moved by another scheme.
     template <int Dim> std::string take_updated(Grain<Dim>& grain, double dt)
     {
-        const std::string complaint = settle_updated(grain, grain.updated->arrive(dt));
+        const std::string complaint = settle_updated(grain, grain.updated->arrive());
         Surface<Dim>& surface = grain.surface;
         grain.read_velocities(surface.velocity);
         surface.measure_speed();
         surface.travel += dt * surface.speed;
         grain.min_J = 1e300;
-        for (const Mat<Dim>& F : grain.updated->deformation)
+        for (const Mat<Dim>& F : grain.updated->deformation_gradients())
             grain.min_J = std::min(grain.min_J, F.determinant());
         return complaint;
     }
@@ -480,7 +480,7 @@ template <int Dim> void Assembly<Dim>::evaluate_energy(double dt, int threads)
         Grain<Dim>& grain = *updated_[g];
         const auto energy = [&](double back) {
             double min_stretch;
-            return grain.updated->elastic_energy(*grain.mesh, *grain.law, grain.parameters.data(), dt, back, min_stretch);
+            return grain.updated->elastic_energy(*grain.mesh, *grain.law, grain.parameters.data(), back, min_stretch);
         };
         grain.elastic = std::pow(grain.radius, Dim) * (2 * energy(dt / 2) - (energy(dt) + energy(0)) / 2);
     }

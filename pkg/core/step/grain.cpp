@@ -89,7 +89,7 @@ template <int Dim> Batch<Dim> Grain<Dim>::alone() const
 template <int Dim> double Grain<Dim>::elastic_energy()
 {
     if (updated) {
-        elastic = updated->elastic_energy(*mesh, *law, parameters.data(), 0, 0, min_stretch);
+        elastic = updated->elastic_energy(*mesh, *law, parameters.data(), 0, min_stretch);
         return elastic *= std::pow(radius, Dim);
     }
     Batch<Dim> batch = alone();
@@ -151,7 +151,7 @@ template <int Dim> void Grain<Dim>::settle()
 {
     updated->settle(*mesh);
     motion = motion_of(*this, updated->sums(*mesh).data(), 1);
-    take_positions(updated->surface[0].data());
+    take_positions(updated->surface()[0].data());
 }
 
 template <int Dim> void Grain<Dim>::pull()
@@ -210,7 +210,7 @@ template <int Dim> void Grain<Dim>::add_to_nodes(const Vec<Dim>& centre, const V
 
 template <int Dim> std::vector<Mat<Dim>> Grain<Dim>::deformation_gradients() const
 {
-    if (updated) return updated->deformation;
+    if (updated) return updated->deformation_gradients();
     constexpr int stencil = Discretisation<Dim>::stencil;
     const std::vector<double> u = with_slaves(displacement);
     std::vector<Mat<Dim>> F(mesh->point_count(), Mat<Dim>::Identity());
@@ -268,7 +268,7 @@ template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::at_points(const std::vector
 
 template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_positions() const
 {
-    std::vector<Vec<Dim>> x = updated ? updated->position : at_points(displacement);
+    std::vector<Vec<Dim>> x = updated ? updated->point_positions() : at_points(displacement);
     for (int p = 0; p < mesh->point_count(); ++p) {
         if (!updated) x[p] += mesh->point_position[p];
         x[p] = origin + radius * x[p];
@@ -278,7 +278,7 @@ template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_positions() const
 
 template <int Dim> std::vector<Vec<Dim>> Grain<Dim>::point_velocities() const
 {
-    std::vector<Vec<Dim>> v = updated ? updated->velocity : at_points(velocity);
+    std::vector<Vec<Dim>> v = updated ? updated->point_velocities() : at_points(velocity);
     for (auto& value : v)
         value *= radius;
     return v;

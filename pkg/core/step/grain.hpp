@@ -6,6 +6,7 @@
 #include "step/updated.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace softgrain {
 
@@ -48,7 +49,7 @@ template <int Dim> struct Grain {
     void forget();
     /// Surface and motion from the node fields held here, or from the points.
     void refresh();
-    /// Surface and motion of an updated-Lagrangian grain after its points have moved: lays its grid anew.
+    /// Surface and motion of an updated-Lagrangian grain after its nodes have moved; lays its grid anew where that is due.
     void settle();
     /// Velocities of the surface points of an updated-Lagrangian grain on the grid as it is, [point][Dim] [m/s].
     void read_velocities(std::vector<double>& field) const;

@@ -60,7 +60,7 @@ namespace {
         Batch<Dim>& batch_;
     };
 
-    /// The grid stands where it was laid at the start of the step, and the points carry the deformation up to then.
+    /// Displacements count from the start of the step.
     template <int Dim> class UpdatedInStep : public ImplicitBody<Dim> {
     public:
         explicit UpdatedInStep(Grain<Dim>& grain)
@@ -109,8 +109,9 @@ namespace {
         void leave(const AlignedVector& displacement, const AlignedVector& velocity) override
         {
             for (int r = 0; r < this->pattern->rows; ++r)
-                grain_.updated->leave(this->pattern->master[r], Eigen::Map<const Vec<Dim>>(&displacement[size_t(r) * Dim]),
-                                      Eigen::Map<const Vec<Dim>>(&velocity[size_t(r) * Dim]));
+                grain_.updated->put(this->pattern->master[r],
+                                    this->pattern->position[r] + Eigen::Map<const Vec<Dim>>(&displacement[size_t(r) * Dim]),
+                                    Eigen::Map<const Vec<Dim>>(&velocity[size_t(r) * Dim]));
         }
 
     private:

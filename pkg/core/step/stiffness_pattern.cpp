@@ -42,10 +42,10 @@ template <int Dim> StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<
     surface_start.push_back(int(surface.size()));
 }
 
-// With the points' deformations F up to now, F_p + sum of u grad N F_p = F_p + sum of u (F_p^T grad N).
+// With the points' deformations F up to now and F_0 when the grid was laid, F_p + sum of u grad N F_0 = F_p + sum of u (F_0^T grad N).
 template <int Dim>
 StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh, const UpdatedBody<Dim>& body)
-    : carried(body.deformation)
+    : carried(body.deformation_gradients())
 {
     constexpr int points = power(2, Dim);
     const PointGrid<Dim>& grid = body.grid();
@@ -57,17 +57,17 @@ StiffnessPattern<Dim>::StiffnessPattern(const Discretisation<Dim>& mesh, const U
             for (int k = grid.point_row[p]; k < grid.point_row[p + 1]; ++k) {
                 const auto [entry, added] = gradients.try_emplace(row_of[grid.entry[k].node]);
                 if (added) entry->second.fill(Vec<Dim>::Zero());
-                entry->second[q] = carried[p].transpose() * grid.entry[k].gradient;
+                entry->second[q] = body.carried()[p].transpose() * grid.entry[k].gradient;
             }
         }
         add_region(mesh.regions[r], gradients);
     }
     count_blocks();
-    for (size_t s = 0; s < body.surface.size(); ++s) {
+    for (size_t s = 0; s < body.surface().size(); ++s) {
         std::map<int, double> weights;
         for (const auto& [node, weight] : grid.surface_row[s])
             weights[row_of[node]] = weight;
-        add_surface_point(body.surface[s], weights);
+        add_surface_point(body.surface()[s], weights);
     }
     surface_start.push_back(int(surface.size()));
 }

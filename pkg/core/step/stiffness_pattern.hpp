@@ -16,7 +16,7 @@ template <int Dim> class UpdatedBody;
 template <int Dim> struct StiffnessPattern {
     /// Of all grains of a discretisation; displacements count from the undeformed grain.
     explicit StiffnessPattern(const Discretisation<Dim>& mesh);
-    /// Of one grain in the updated-Lagrangian form; displacements count from the grid as it was laid.
+    /// Of one grain in the updated-Lagrangian form; displacements count from its nodes as they are.
     StiffnessPattern(const Discretisation<Dim>& mesh, const UpdatedBody<Dim>& body);
 
     int rows;                       ///< one a master

@@ -7,6 +7,10 @@
 namespace softgrain {
 namespace {
 
+    /// A cell is out of shape when it has been strained against the mean of the grain so that a principal stretch is over this
+    /// number or below its inverse.
+    constexpr double most_stretch = 3;
+
     template <int Dim> Tensor<Dim, double> tensor(const Mat<Dim>& matrix)
     {
         Tensor<Dim, double> result;
@@ -16,67 +20,130 @@ namespace {
         return result;
     }
 
+    /// The larger of the largest principal stretch and the inverse of the smallest.
+    double largest_stretch(const Mat<2>& F)
+    {
+        const double half_sum = F.squaredNorm() / 2, J = F.determinant();
+        const double largest = std::sqrt(half_sum + std::sqrt(std::max(0.0, half_sum * half_sum - J * J)));
+        return std::max(largest, largest / std::abs(J));
+    }
+
     double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+    Vec<2> turned(double rate, const Vec<2>& arm) { return rate * Vec<2>(-arm[1], arm[0]); }
 
 } // namespace
 
-template <int Dim> void UpdatedBody<Dim>::place(const Discretisation<Dim>& mesh, const Mat<Dim>& rotation)
+template <int Dim> void UpdatedBody<Dim>::place(const Discretisation<Dim>& mesh, const Mat<Dim>& deformation_gradient)
 {
-    position.clear();
-    surface.clear();
+    position_.clear();
+    surface_.clear();
     for (const Vec<Dim>& X : mesh.point_position)
-        position.push_back(rotation * X);
+        position_.push_back(deformation_gradient * X);
     for (const auto& point : mesh.surface)
-        surface.push_back(rotation * point.position);
-    velocity.assign(position.size(), Vec<Dim>::Zero());
-    deformation.assign(position.size(), rotation);
-    spin.reset();
+        surface_.push_back(deformation_gradient * point.position);
+    deformation_.assign(position_.size(), deformation_gradient);
+    lay(mesh);
+    node_velocity_.assign(grid_.node_count(), Vec<Dim>::Zero());
 }
 
 template <int Dim> void UpdatedBody<Dim>::settle(const Discretisation<Dim>& mesh)
 {
-    grid_.lay(position, mesh.point_volume, surface, mesh.node_position[0], mesh.cell_width, mesh.node_threshold);
-    grid_.project(mesh.point_volume, velocity, node_velocity_);
-    node_way_.assign(size_t(grid_.node_count()), Vec<Dim>::Zero());
-    rate_.resize(position.size(), Mat<Dim>::Zero());
-    if (spin)
-        restore_spin();
-    else
-        spin = spin_of_nodes();
+    if (largest_stretch(mesh) <= most_stretch) return;
+    const Whole before = whole();
+    const std::vector<Vec<Dim>> velocity = point_velocities();
+    std::vector<Mat<Dim>> rate;
+    for (int p = 0; p < int(velocity.size()); ++p)
+        rate.push_back(gradient_at(node_velocity_, p) * gradient_at(grid_.node_position, p).inverse());
+    lay(mesh);
+    gather(mesh.point_volume, velocity, rate);
+    keep(before);
 }
 
-/// About the centre of mass.
-template <int Dim> double UpdatedBody<Dim>::spin_of_nodes() const
+/// Of the points against the mean of the grain, since the grid was laid.
+template <int Dim> double UpdatedBody<Dim>::largest_stretch(const Discretisation<Dim>& mesh) const
 {
-    double sum = 0, mass = 0;
-    Vec<Dim> x = Vec<Dim>::Zero(), v = Vec<Dim>::Zero();
+    const Mat<Dim> back = mean_deformation(mesh).inverse();
+    double largest = 1;
+    for (int p = 0; p < int(position_.size()); ++p)
+        largest = std::max(largest, softgrain::largest_stretch(back * gradient_at(grid_.node_position, p) * laid_.mean));
+    return largest;
+}
+
+template <int Dim> Mat<Dim> UpdatedBody<Dim>::mean_deformation(const Discretisation<Dim>& mesh) const
+{
+    Mat<Dim> mean = Mat<Dim>::Zero();
+    for (size_t p = 0; p < deformation_.size(); ++p)
+        mean += mesh.point_volume[p] / mesh.moments.volume * deformation_[p];
+    return mean;
+}
+
+/// In the space that the mean deformation maps on the grain.
+template <int Dim> void UpdatedBody<Dim>::lay(const Discretisation<Dim>& mesh)
+{
+    laid_ = { position_, surface_, deformation_, mean_deformation(mesh) };
+    const Mat<Dim> back = laid_.mean.inverse();
+    std::vector<Vec<Dim>> points, surface;
+    for (const Vec<Dim>& x : position_)
+        points.push_back(back * x);
+    for (const Vec<Dim>& x : surface_)
+        surface.push_back(back * x);
+    grid_.lay(points, mesh.point_volume, surface, mesh.node_position[0], mesh.cell_width, mesh.node_threshold);
+    for (Vec<Dim>& x : grid_.node_position)
+        x = laid_.mean * x;
+    for (auto& entry : grid_.entry)
+        entry.gradient = back.transpose() * entry.gradient;
+}
+
+/// Velocities of the nodes: means over the points of what each says from its velocity and its gradient (Jiang, Schroeder,
+/// Selle, Teran and Stomakhin 2015). Keeps momentum, and what is linear in space.
+template <int Dim>
+void UpdatedBody<Dim>::gather(const std::vector<double>& masses, const std::vector<Vec<Dim>>& velocity,
+                              const std::vector<Mat<Dim>>& rate)
+{
+    node_velocity_.assign(grid_.node_count(), Vec<Dim>::Zero());
+    for (size_t p = 0; p < velocity.size(); ++p)
+        for (int k = grid_.point_row[p]; k < grid_.point_row[p + 1]; ++k) {
+            const auto& [node, weight, gradient] = grid_.entry[k];
+            node_velocity_[node] += masses[p] * weight / grid_.node_mass[node]
+                * (velocity[p] + rate[p] * (grid_.node_position[node] - position_[p]));
+        }
+}
+
+template <int Dim> typename UpdatedBody<Dim>::Whole UpdatedBody<Dim>::whole() const
+{
+    Whole sum;
     for (int i = 0; i < grid_.node_count(); ++i) {
         const double m = grid_.node_mass[i];
-        mass += m;
-        x += m * grid_.node_position[i];
-        v += m * node_velocity_[i];
-        sum += m * cross(grid_.node_position[i], node_velocity_[i]);
+        sum.mass += m;
+        sum.centre += m * grid_.node_position[i];
+        sum.velocity += m * node_velocity_[i];
+        sum.kinetic += m / 2 * node_velocity_[i].squaredNorm();
     }
-    return sum - cross(x, v) / mass;
+    sum.centre /= sum.mass;
+    sum.velocity /= sum.mass;
+    for (int i = 0; i < grid_.node_count(); ++i) {
+        const Vec<Dim> arm = grid_.node_position[i] - sum.centre;
+        sum.spin += grid_.node_mass[i] * cross(arm, node_velocity_[i]);
+        sum.inertia += grid_.node_mass[i] * arm.squaredNorm();
+    }
+    return sum;
 }
 
-/// The lumped masses of a new grid have another moment of inertia than those of the last: a rigid spin keeps the angular
-/// momentum (projection on an invariant, Hairer, Lubich and Wanner 2006, section IV.4).
-template <int Dim> void UpdatedBody<Dim>::restore_spin()
+/// The lumped masses of a new grid have another moment of inertia than those of the last, and the mean over points filters: a
+/// rigid spin keeps the angular momentum, a factor on what is no rigid motion the kinetic energy (projection on invariants,
+/// Hairer, Lubich and Wanner 2006, section IV.4).
+template <int Dim> void UpdatedBody<Dim>::keep(const Whole& before)
 {
-    double inertia = 0, mass = 0;
-    Vec<Dim> centre = Vec<Dim>::Zero();
+    constexpr double most = 2; // what is left of a motion that is all but rigid is round-off
+    const Whole now = whole();
+    const auto of_rigid
+        = [&](double spin) { return now.mass / 2 * now.velocity.squaredNorm() + spin * spin / (2 * now.inertia); };
+    const double wanted = before.kinetic - of_rigid(before.spin), found = now.kinetic - of_rigid(now.spin);
+    const double factor = found > 0 ? std::min(std::sqrt(std::max(wanted, 0.0) / found), most) : 1;
     for (int i = 0; i < grid_.node_count(); ++i) {
-        mass += grid_.node_mass[i];
-        centre += grid_.node_mass[i] * grid_.node_position[i];
-    }
-    centre /= mass;
-    for (int i = 0; i < grid_.node_count(); ++i)
-        inertia += grid_.node_mass[i] * (grid_.node_position[i] - centre).squaredNorm();
-    const double lacking = (*spin - spin_of_nodes()) / inertia;
-    for (int i = 0; i < grid_.node_count(); ++i) {
-        const Vec<Dim> arm = grid_.node_position[i] - centre;
-        node_velocity_[i] += lacking * Vec<Dim>(-arm[1], arm[0]);
+        const Vec<Dim> arm = grid_.node_position[i] - now.centre;
+        const Vec<Dim> rest = node_velocity_[i] - now.velocity - turned(now.spin / now.inertia, arm);
+        node_velocity_[i] = now.velocity + turned(before.spin / now.inertia, arm) + factor * rest;
     }
 }
 
@@ -90,7 +157,7 @@ double UpdatedBody<Dim>::kick(const Discretisation<Dim>& mesh, const LawKernels<
     for (int r = 0, first = 0; r < int(mesh.regions.size()); ++r, first += points) {
         Tensor<Dim, double> P[points];
         for (int q = 0; q < points; ++q)
-            P[q] = tensor<Dim>(deformation[first + q]);
+            P[q] = tensor<Dim>(deformation_[first + q]);
         const double J = law.region_stress(parameters, mesh.regions[r].pointwise, -mesh.regions[r].volume / points, P);
         if (!(J >= smallest)) smallest = J; // also when it is no number
         for (int q = 0; q < points; ++q) {
@@ -99,9 +166,9 @@ double UpdatedBody<Dim>::kick(const Discretisation<Dim>& mesh, const LawKernels<
             for (int i = 0; i < Dim; ++i)
                 for (int j = 0; j < Dim; ++j)
                     first_piola(i, j) = P[q].at[i][j];
-            const Mat<Dim> kirchhoff = first_piola * deformation[p].transpose(); // times -V_p
+            const Mat<Dim> since_laid = first_piola * laid_.deformation[p].transpose(); // times -V_p
             for (int k = grid_.point_row[p]; k < grid_.point_row[p + 1]; ++k)
-                force_[grid_.entry[k].node] += kirchhoff * grid_.entry[k].gradient;
+                force_[grid_.entry[k].node] += since_laid * grid_.entry[k].gradient;
         }
     }
     for (int i = 0; i < grid_.node_count(); ++i)
@@ -118,51 +185,35 @@ template <int Dim> void UpdatedBody<Dim>::push(int surface_point, const Vec<Dim>
 template <int Dim> bool UpdatedBody<Dim>::drift(double dt)
 {
     for (int i = 0; i < grid_.node_count(); ++i)
-        node_way_[i] = dt * node_velocity_[i];
-    return arrive(dt);
+        grid_.node_position[i] += dt * node_velocity_[i];
+    return arrive();
 }
 
-template <int Dim> void UpdatedBody<Dim>::leave(int node, const Vec<Dim>& way, const Vec<Dim>& velocity)
+template <int Dim> void UpdatedBody<Dim>::put(int node, const Vec<Dim>& position, const Vec<Dim>& velocity)
 {
-    node_way_[node] = way;
+    grid_.node_position[node] = position;
     node_velocity_[node] = velocity;
 }
 
-template <int Dim> bool UpdatedBody<Dim>::arrive(double dt)
+template <int Dim> bool UpdatedBody<Dim>::arrive()
 {
-    for (const auto* field : { &node_way_, &node_velocity_ })
+    for (const auto* field : { &grid_.node_position, &node_velocity_ })
         for (const Vec<Dim>& value : *field)
             if (!value.allFinite()) return false;
-    for (int i = 0; i < grid_.node_count(); ++i)
-        grid_.node_position[i] += node_way_[i];
-    spin = spin_of_nodes();
-    for (size_t p = 0; p < position.size(); ++p) {
-        Vec<Dim> way = Vec<Dim>::Zero();
-        Mat<Dim> gradient = Mat<Dim>::Zero();
-        velocity[p].setZero();
-        for (int k = grid_.point_row[p]; k < grid_.point_row[p + 1]; ++k) {
-            const auto& entry = grid_.entry[k];
-            way += entry.weight * node_way_[entry.node];
-            velocity[p] += entry.weight * node_velocity_[entry.node];
-            gradient += node_way_[entry.node] * entry.gradient.transpose();
-        }
-        position[p] += way;
-        rate_[p] = gradient / dt;
-        deformation[p] += gradient * deformation[p].eval();
+    for (int p = 0; p < int(position_.size()); ++p) {
+        position_[p] = at_point(grid_.node_position, p);
+        deformation_[p] = gradient_at(grid_.node_position, p) * laid_.deformation[p];
     }
-    for (size_t s = 0; s < surface.size(); ++s)
-        surface[s] += at_surface(node_way_, int(s));
+    for (size_t s = 0; s < surface_.size(); ++s)
+        surface_[s] = at_surface(grid_.node_position, int(s));
     return true;
 }
 
 template <int Dim>
 void UpdatedBody<Dim>::add_velocity(const Vec<Dim>& centre, const Vec<Dim>& of_centre, const Mat<Dim>& gradient)
 {
-    for (size_t p = 0; p < position.size(); ++p)
-        velocity[p] += of_centre + gradient * (position[p] - centre);
     for (int i = 0; i < grid_.node_count(); ++i)
         node_velocity_[i] += of_centre + gradient * (grid_.node_position[i] - centre);
-    if (spin) spin = spin_of_nodes();
 }
 
 template <int Dim> Vec<Dim> UpdatedBody<Dim>::at_surface(const std::vector<Vec<Dim>>& field, int point) const
@@ -173,9 +224,33 @@ template <int Dim> Vec<Dim> UpdatedBody<Dim>::at_surface(const std::vector<Vec<D
     return sum;
 }
 
+template <int Dim> Vec<Dim> UpdatedBody<Dim>::at_point(const std::vector<Vec<Dim>>& field, int point) const
+{
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int k = grid_.point_row[point]; k < grid_.point_row[point + 1]; ++k)
+        sum += grid_.entry[k].weight * field[grid_.entry[k].node];
+    return sum;
+}
+
+template <int Dim> Mat<Dim> UpdatedBody<Dim>::gradient_at(const std::vector<Vec<Dim>>& field, int point) const
+{
+    Mat<Dim> sum = Mat<Dim>::Zero();
+    for (int k = grid_.point_row[point]; k < grid_.point_row[point + 1]; ++k)
+        sum += field[grid_.entry[k].node] * grid_.entry[k].gradient.transpose();
+    return sum;
+}
+
 template <int Dim> Vec<Dim> UpdatedBody<Dim>::velocity_at_surface(int point) const
 {
     return at_surface(node_velocity_, point);
+}
+
+template <int Dim> std::vector<Vec<Dim>> UpdatedBody<Dim>::point_velocities() const
+{
+    std::vector<Vec<Dim>> velocity;
+    for (int p = 0; p < int(position_.size()); ++p)
+        velocity.push_back(at_point(node_velocity_, p));
+    return velocity;
 }
 
 template <int Dim> std::array<double, MotionSums<Dim>::count> UpdatedBody<Dim>::sums(const Discretisation<Dim>& mesh) const
@@ -196,26 +271,25 @@ template <int Dim> std::array<double, MotionSums<Dim>::count> UpdatedBody<Dim>::
         }
         total[Sums::kinetic] += mv.dot(node_velocity_[i]);
     }
-    for (size_t p = 0; p < position.size(); ++p)
-        for (int a = 0; a < Dim; ++a)
-            for (int b = 0; b < Dim; ++b)
-                total[Sums::gradient + Dim * a + b]
-                    += mesh.point_volume[p] / mesh.moments.volume * (deformation[p](a, b) - (a == b));
+    const Mat<Dim> mean = mean_deformation(mesh);
+    for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b)
+            total[Sums::gradient + Dim * a + b] = mean(a, b) - (a == b);
     return total;
 }
 
 template <int Dim>
 double UpdatedBody<Dim>::elastic_energy(const Discretisation<Dim>& mesh, const LawKernels<Dim>& law,
-                                        const double* parameters, double dt, double back, double& min_stretch) const
+                                        const double* parameters, double back, double& min_stretch) const
 {
     constexpr int points = power(2, Dim);
     double sum = 0;
     min_stretch = 1e300;
-    for (int r = 0, first = 0; r < int(mesh.regions.size()); ++r, first += points) {
+    for (int r = 0, p = 0; r < int(mesh.regions.size()); ++r) {
         Tensor<Dim, double> F[points];
-        for (int q = 0; q < points; ++q) {
-            const Mat<Dim> one = Mat<Dim>::Identity(), &rate = rate_[first + q], &end = deformation[first + q];
-            F[q] = tensor<Dim>(back == 0 ? end : (one + (dt - back) * rate) * (one + dt * rate).inverse() * end);
+        for (int q = 0; q < points; ++q, ++p) {
+            const Mat<Dim> rate = back > 0 ? gradient_at(node_velocity_, p) : Mat<Dim>(Mat<Dim>::Zero());
+            F[q] = tensor<Dim>(deformation_[p] - back * rate * laid_.deformation[p]);
         }
         sum += law.region_energy(parameters, mesh.regions[r].pointwise, mesh.regions[r].volume, F, min_stretch);
     }
@@ -229,33 +303,34 @@ template <int Dim> std::vector<double> UpdatedBody<Dim>::packed() const
         for (const auto& item : items)
             values.insert(values.end(), item.data(), item.data() + item.size());
     };
-    add(position);
-    add(velocity);
-    add(deformation);
-    add(rate_);
-    add(surface);
-    values.push_back(*spin);
+    add(laid_.position);
+    add(laid_.surface);
+    add(laid_.deformation);
+    add(grid_.node_position);
+    add(node_velocity_);
     return values;
 }
 
-template <int Dim> bool UpdatedBody<Dim>::unpack(const std::vector<double>& values)
+template <int Dim> bool UpdatedBody<Dim>::unpack(const Discretisation<Dim>& mesh, const std::vector<double>& values)
 {
-    if (values.size() != position.size() * 2 * (Dim + Dim * Dim) + surface.size() * Dim + 1) return false;
+    const size_t of_points = position_.size() * (Dim + Dim * Dim) + surface_.size() * Dim;
+    if (values.size() < of_points) return false;
     const double* from = values.data();
-    rate_.resize(position.size());
     const auto take = [&](auto& items) {
         for (auto& item : items) {
             std::copy(from, from + item.size(), item.data());
             from += item.size();
         }
     };
-    take(position);
-    take(velocity);
-    take(deformation);
-    take(rate_);
-    take(surface);
-    spin = *from;
-    return true;
+    take(position_);
+    take(surface_);
+    take(deformation_);
+    lay(mesh);
+    node_velocity_.resize(grid_.node_count());
+    if (values.size() != of_points + 2 * Dim * node_velocity_.size()) return false;
+    take(grid_.node_position);
+    take(node_velocity_);
+    return arrive();
 }
 
 template class UpdatedBody<2>;

@@ -53,9 +53,8 @@ TEST(PointGrid, UnderUnmovedPointsIsTheDiscretisation)
     }
 }
 
-// Sum N = 1, sum N x = x, sum grad N = 0, sum x grad N = I; masses sum up, and so do their first moments; the projection
-// returns a linear field, and keeps momentum and angular momentum of any other.
-TEST(PointGrid, ReproducesLinesAndKeepsMomenta)
+// Sum N = 1, sum N x = x, sum grad N = 0, sum x grad N = I; masses sum up.
+TEST(PointGrid, ReproducesLines)
 {
     Random random(9);
     for (const auto& layout : layouts(random, { 60, 276 }, 2)) {
@@ -64,10 +63,7 @@ TEST(PointGrid, ReproducesLinesAndKeepsMomenta)
         const Vec<2> shift = random.vector<2>(3);
         const PointGrid<2> grid = laid(mesh, A, shift);
         const int points = mesh.point_count();
-        double mass = 0, spin = 0;
-        std::vector<Vec<2>> any(points), line(points), v, w;
-        Vec<2> momentum = Vec<2>::Zero();
-        const Mat<2> G = random.matrix<2>(5);
+        double mass = 0;
         for (int p = 0; p < points; ++p) {
             const Vec<2> at = A * mesh.point_position[p] + shift;
             double one = 0;
@@ -84,31 +80,13 @@ TEST(PointGrid, ReproducesLinesAndKeepsMomenta)
             ASSERT_LE((x - at).norm(), 1e-10) << layout.name;
             ASSERT_LE(slope.norm(), 1e-9) << layout.name;
             ASSERT_LE((unit - Mat<2>::Identity()).norm(), 1e-9) << layout.name;
-            any[p] = random.vector<2>(1);
-            line[p] = G * at;
             mass += mesh.point_volume[p];
-            momentum += mesh.point_volume[p] * any[p];
-            spin += mesh.point_volume[p] * (at[0] * any[p][1] - at[1] * any[p][0]);
         }
-        grid.project(mesh.point_volume, line, v);
-        grid.project(mesh.point_volume, any, w);
-        for (int i = 0; i < grid.node_count(); ++i) {
-            ASSERT_GT(grid.node_mass[i], 0) << layout.name;
-            ASSERT_LE((v[i] - G * grid.node_position[i]).norm(), 1e-8) << layout.name;
-            mass -= grid.node_mass[i];
-            momentum -= grid.node_mass[i] * w[i];
-        }
-        for (int p = 0; p < points; ++p) { // of the interpolated field, by the consistent mass
-            Vec<2> at = Vec<2>::Zero(), speed = at;
-            for (int k = grid.point_row[p]; k < grid.point_row[p + 1]; ++k) {
-                at += grid.entry[k].weight * grid.node_position[grid.entry[k].node];
-                speed += grid.entry[k].weight * w[grid.entry[k].node];
-            }
-            spin -= mesh.point_volume[p] * (at[0] * speed[1] - at[1] * speed[0]);
+        for (double m : grid.node_mass) {
+            ASSERT_GT(m, 0) << layout.name;
+            mass -= m;
         }
         EXPECT_NEAR(mass, 0, 1e-11) << layout.name;
-        EXPECT_LE(momentum.norm(), 1e-10) << layout.name;
-        EXPECT_NEAR(spin, 0, 1e-9) << layout.name;
     }
 }
 
