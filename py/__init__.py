@@ -3,13 +3,13 @@
 
 A scene says `from softgrain import *` and has the classes of the plugin (NeoHookeanMat, SoftGrain, SoftIntegrator...),
 the builders (softDisc, softPolygon, softCloud, softBox, rigidDisc, softEngines), and the modules arrays (what a grain holds, as
-numpy arrays), measures (of a running scene) and fclib (its contact problems, for other solvers)."""
+numpy arrays), measures and stresses (of a running scene) and fclib (its contact problems, for other solvers)."""
 from . import _guard
 _guard.check()
 from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
 import yade.wrapper  # noqa: E402
 
-from . import arrays, fclib, measures  # noqa: E402
+from . import arrays, fclib, measures, stresses  # noqa: E402
 from .builders import discCloud, rigidContacts, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
 from .checks import InputError  # noqa: E402
 
@@ -32,4 +32,4 @@ def _renew_dispatchers():
 _renew_dispatchers()
 
 __all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "rigidContacts", "rigidDisc",
-           "softBox", "softCloud", "softDisc", "softEngines", "softPolygon"]
+           "softBox", "softCloud", "softDisc", "softEngines", "softPolygon", "stresses"]

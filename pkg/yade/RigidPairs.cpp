@@ -83,4 +83,15 @@ void RigidPairs::addWithForce(boost::python::list& touching) const
                                                       Vector3r(pair.phys->normalForce + pair.phys->shearForce)));
 }
 
+void RigidPairs::addPointForces(std::vector<Real>& rows) const
+{
+    for (const RigidPair& pair : pairs_) {
+        const Vector3r &place = pair.geom->contactPoint, &normal = pair.geom->normal,
+                       force = pair.phys->normalForce + pair.phys->shearForce;
+        if (force != Vector3r::Zero())
+            rows.insert(rows.end(),
+                        { Real(pair.id1), Real(pair.id2), place[0], place[1], normal[0], normal[1], force[0], force[1] });
+    }
+}
+
 } // namespace yade

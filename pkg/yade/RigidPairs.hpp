@@ -34,6 +34,8 @@ public:
     Real deepest() const { return deepest_; } ///< penetration [radius of the smaller body]
     /// As SoftPairs::withForce; appended.
     void addWithForce(boost::python::list& touching) const;
+    /// As SoftPairs::pointForces; appended.
+    void addPointForces(std::vector<Real>& rows) const;
 
 private:
     std::vector<RigidPair> pairs_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/IGeom.hpp>
+#include <pkg/dem/ScGeom.hpp>
 
 #include "contact/narrow_phase.hpp"
 
 namespace yade {
 
-class SoftGeom : public IGeom {
+class SoftGeom : public GenericSpheresContact {
 public:
     /// Contact points of a grain with another grain or a rigid polygon.
     softgrain::PairContacts<2> pair;
@@ -27,9 +27,10 @@ public:
 
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
             SoftGeom,
-            IGeom,
+            GenericSpheresContact,
             "Contact points of two bodies at least one of which is a :yref:`SoftGrain`: surface points of the one near the boundary of the "
-            "other.",
+            "other. normal (from id1 to id2) and contactPoint are means over them, weighted with forces in the last step; refR1 and refR2 the radii of "
+            "discs of equal area, both the grain's where the other body is rigid.",
             ((vector<int>, savedPoints, , Attr::hidden, "Surface point and side of each contact point, in pairs [-]."))(
                     (vector<int>, savedNear, , Attr::hidden, "List, surface point and face of each near point, in threes [-]."))(
                     (vector<Real>, savedClear, , Attr::hidden, "Place on the face of each near point [-] and travel until which it is out of touch [m], in pairs."))(
@@ -39,7 +40,7 @@ public:
                     (vector<Real>, savedCreep, , Attr::hidden, "How far each contact point is off the place that it sticks to [m].")),
             createIndex(),
             .def("pointCount", &SoftGeom::pointCount, "Number of contact points looked at in the last step, touching or about to [-]."));
-    REGISTER_CLASS_INDEX(SoftGeom, IGeom);
+    REGISTER_CLASS_INDEX(SoftGeom, GenericSpheresContact);
 };
 REGISTER_SERIALIZABLE(SoftGeom);
 

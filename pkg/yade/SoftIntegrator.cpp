@@ -414,6 +414,12 @@ boost::python::tuple SoftIntegrator::contactProblem() const
                                      asBytes(form.u.data(), form.u.size()));
 }
 
+boost::python::object SoftIntegrator::contactPoints() const
+{
+    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    return asBytes(pairs_.pointForces());
+}
+
 boost::python::list SoftIntegrator::contacts() const
 {
     const std::lock_guard<std::recursive_mutex> lock(guard_);

@@ -30,6 +30,7 @@ public:
     Real maxPenetration() const { return pairs_.deepest; }
     virtual Real residual() const;
     boost::python::list contacts() const;
+    boost::python::object contactPoints() const;
     virtual boost::python::tuple contactProblem() const;
     void postLoad(SoftIntegrator&);
 
@@ -84,6 +85,10 @@ public:
                     .def("contacts",
                          &SoftIntegrator::contacts,
                          "Contacts of two bodies with a force in the last step, one a pair: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).")
+                    .def("contactPoints",
+                         &SoftIntegrator::contactPoints,
+                         "Contact points of two bodies with a force in the last step, as bytes; softgrain.stresses.contactPoints() gives them as "
+                         "numpy arrays.")
                     .def("contactProblem",
                          &SoftIntegrator::contactProblem,
                          "The last step's contact problem as a matrix and vectors; softgrain.fclib.lastProblem() gives it as numpy arrays."));

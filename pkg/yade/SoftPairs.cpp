@@ -241,12 +241,18 @@ void SoftPairs::Pair::count(const softgrain::Vec<2>& onPoint, const softgrain::C
     sum.moment -= arm[0] * force[1] - arm[1] * force[0];
 }
 
+Vector3r SoftPairs::Pair::normal() const { return inSpace((sum.normal - sum.pull).normalized()); }
+
 void SoftPairs::deliver(Scene& scene)
 {
     for (const Pair& pair : pairs_) {
         pair.phys->normalForce = inSpace(pair.sum.normal + pair.sum.pull);
         pair.phys->shearForce = inSpace(pair.sum.shear);
         pair.phys->contactPoint = pair.sum.weight > 0 ? inSpace(pair.sum.place / pair.sum.weight) : Vector3r::Zero();
+        pair.geom->contactPoint = pair.phys->contactPoint;
+        pair.geom->normal = pair.normal();
+        pair.geom->refR1 = (pair.first ? pair.first : pair.second)->grain.radius;
+        pair.geom->refR2 = pair.second->grain.radius;
         if (pair.rigid && pair.sum.weight > 0) {
             scene.forces.addForce(pair.id1, -inSpace(pair.sum.normal + pair.sum.pull + pair.sum.shear));
             scene.forces.addTorque(pair.id1, Vector3r(0, 0, pair.sum.moment));
@@ -255,14 +261,35 @@ void SoftPairs::deliver(Scene& scene)
     scene.forces.sync(); // or they would add to those of the next step
 }
 
+std::vector<Real> SoftPairs::pointForces() const
+{
+    std::vector<Real> rows;
+    const auto append = [&rows](const Pair& pair, const softgrain::Vec<2>& place, const softgrain::Vec<2>& normal,
+                                const softgrain::Vec<2>& force) {
+        if (!pair.ofItself() && force != softgrain::Vec<2>::Zero())
+            rows.insert(rows.end(),
+                        { Real(pair.id1), Real(pair.id2), place[0], place[1], normal[0], normal[1], force[0], force[1] });
+    };
+    size_t index = 0;
+    for (const Pair& pair : pairs_) {
+        for (const auto& point : pair.geom->points()) {
+            const auto& contact = problem.contacts[index++];
+            const Real sign = contact.body == pair.body2 ? 1 : -1;
+            append(pair, problem.bodies[size_t(contact.body)]->x(contact.point), sign * contact.normal, sign * point.force);
+        }
+        append(pair, pair.phys->contactPoint.head<2>(), -pair.sum.pull.normalized(), pair.sum.pull);
+    }
+    rigid.addPointForces(rows);
+    return rows;
+}
+
 boost::python::list SoftPairs::withForce() const
 {
     boost::python::list touching;
     for (const Pair& pair : pairs_) {
         const Vector3r force = pair.phys->normalForce + pair.phys->shearForce;
         if (pair.ofItself() || pair.phys->normalForce.squaredNorm() == 0) continue;
-        const Vector3r normal = inSpace((pair.sum.normal - pair.sum.pull).normalized());
-        touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint, normal, force));
+        touching.append(boost::python::make_tuple(pair.id1, pair.id2, pair.phys->contactPoint, pair.normal(), force));
     }
     rigid.addWithForce(touching);
     return touching;

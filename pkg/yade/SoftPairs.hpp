@@ -66,6 +66,8 @@ public:
         /// Adds the force on a contact point to the sums, what is normal of it to `normal` among them.
         void count(const softgrain::Vec<2>& onPoint, const softgrain::Contact<2>& contact, const softgrain::Vec<2>& where,
                    softgrain::Vec<2>& normal);
+        /// From body id1 to id2, mean over the contact points; 0 without force.
+        Vector3r normal() const;
         /// Radius of the smaller grain.
         Real size() const { return first ? std::min(first->grain.radius, second->grain.radius) : second->grain.radius; }
         bool ofItself() const { return first == second; }
@@ -106,6 +108,9 @@ public:
     void refuseOverlaps() const;
     /// Pairs of two bodies with a force: (id1, id2, point [m], normal from id1 to id2 [-], force on id2 [N/m]).
     boost::python::list withForce() const;
+    /// All contact points of two bodies with a force, in rows: id1, id2, place [m] (2), normal from id1 to id2 (2), force on id2
+    /// [N/m] (2). What adhesion pulls at a pair stands as one more.
+    std::vector<Real> pointForces() const;
 
 private:
     void take(const Scene& scene, TouchingPair&& touching);

@@ -8,10 +8,10 @@ namespace yade {
 // Of two round bodies; normal from body 1 to body 2.
 class GenericSpheresContact : public IGeom {
 public:
-    Vector3r normal, contactPoint;
-    Real refR1, refR2;
+    Vector3r normal = Vector3r::Zero(), contactPoint = Vector3r::Zero();
+    Real refR1 = 0, refR2 = 0;
 
-    GenericSpheresContact();
+    GenericSpheresContact() { createIndex(); }
     YADE_ABI_STOCK(GenericSpheresContact)
     YADE_ABI_STOCK_INDEX(GenericSpheresContact)
 };
