@@ -11,7 +11,7 @@ import numpy
 MOMENTS = (("start", "start"), ("jamming", "jamming"), ("end", "end"))
 FIELD, SCALE, LABEL = "von_mises_Pa", 1e-6, "von Mises stress  [MPa]"
 DOT = 1.0           # width of a dot [spacing of the points of its grain]
-GRAIN, EDGE, BOX = "0.93", "0.15", "0.1"
+GRAIN, EDGE, BOX, RIGID = "0.93", "0.15", "0.1", "0.6"
 
 
 def draw_snapshots(folder, moments=MOMENTS):
@@ -31,10 +31,10 @@ def draw_snapshots(folder, moments=MOMENTS):
                                 squeeze=False, sharey=True)
     fields = [shot[FIELD] * SCALE for _, shot in taken if FIELD in shot]
     # the root shows the small stresses at jamming beside the large ones at the end
-    norm = PowerNorm(0.5, 0, _round_up(max(numpy.percentile(field, 99) for field in fields))) if fields else None
+    norm = PowerNorm(0.5, 0, round_up(max(numpy.percentile(field, 99) for field in fields))) if fields else None
     dots = None
     for axis, (title, shot) in zip(axes[0], taken):
-        dots = _draw_packing(axis, shot, norm, panel / width) or dots
+        dots = draw_packing(axis, shot, norm, panel / width) or dots
         axis.set_title(r"%s:  $\varepsilon$ = %.3f,  $\Phi$ = %.3f" % (title, shot["strain"], shot["solid_fraction"]),
                        fontsize=11)
         axis.set_xlim(-0.02 * width * 1e3, 1.02 * width * 1e3)
@@ -46,16 +46,20 @@ def draw_snapshots(folder, moments=MOMENTS):
     return figure
 
 
-def _draw_packing(axis, shot, norm, inches_per_metre):
-    """Grains, points and box of one snapshot, in mm; the dots, or None for rigid grains."""
+def draw_packing(axis, shot, norm, inches_per_metre):
+    """Grains, points, and box or rigid bodies of one snapshot, in mm; the dots, or None for rigid grains."""
     from matplotlib.collections import PolyCollection
     from matplotlib.patches import Rectangle
 
     corners = numpy.split(shot["outlines"] * 1e3, numpy.cumsum(shot["outline_sizes"])[:-1])
     axis.add_collection(PolyCollection(corners, facecolors=GRAIN, edgecolors="none", zorder=1))
     axis.add_collection(PolyCollection(corners, facecolors="none", edgecolors=EDGE, linewidths=0.6, zorder=2.5))
-    width, height = float(shot["width"]), float(shot["height"])
-    axis.add_patch(Rectangle((0, 0), width * 1e3, height * 1e3, fill=False, edgecolor=BOX, linewidth=1.6, zorder=3))
+    if "width" in shot:
+        width, height = float(shot["width"]), float(shot["height"])
+        axis.add_patch(Rectangle((0, 0), width * 1e3, height * 1e3, fill=False, edgecolor=BOX, linewidth=1.6, zorder=3))
+    elif len(shot["rigid_sizes"]):
+        bodies = numpy.split(shot["rigid_outlines"] * 1e3, numpy.cumsum(shot["rigid_sizes"])[:-1])
+        axis.add_collection(PolyCollection(bodies, facecolors=RIGID, edgecolors=BOX, linewidths=1.2, zorder=3))
     axis.set_aspect("equal")
     axis.grid(False)
     for side in axis.spines.values():
@@ -78,7 +82,7 @@ def _areas(polygons):
     return numpy.array(areas)
 
 
-def _round_up(value):
+def round_up(value):
     """The next of a few round numbers times a power of ten, for a colour bar that ends on a round number."""
     if value <= 0:
         return 1.0

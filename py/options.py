@@ -82,6 +82,7 @@ def _checked(convert, word, holds, wish):
 positive = _checked(float, "number above zero", lambda value: 0 < value < math.inf, "be above zero and finite")
 not_negative = _checked(float, "number", lambda value: 0 <= value < math.inf, "be zero or above, and finite")
 finite = _checked(float, "number", math.isfinite, "be finite")
+share = _checked(float, "number", lambda value: 0 <= value <= 1, "lie between 0 and 1")
 theta = _checked(float, "number", lambda value: 0.5 <= value <= 1, "lie between 0.5 and 1")
 count = _checked(int, "whole number", lambda value: value >= 1, "be 1 or more")
 seed = _checked(int, "whole number", lambda value: value >= 0, "be 0 or more")

@@ -100,7 +100,8 @@ def bad_options_are_refused(checks):
 
 
 def help_is_there(checks):
-    for example in ("compaction", "squeeze", "rigid_compaction", "soft_vs_rigid", "accuracy_cost"):
+    for example in ("compaction", "squeeze", "rigid_compaction", "soft_vs_rigid", "accuracy_cost", "mixed_packing", "heavy_ball",
+                    "funnel", "drum"):
         code, out, _ = run_inside(example, ["--help"])
         checks.that(f"{example} --help", code == 0 and "--resume" in out and "--out" in out, out[:300])
 

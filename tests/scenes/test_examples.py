@@ -127,4 +127,64 @@ def packing_scatter(checks):
                                                             if row["coordination_deviation"] == row["coordination_deviation"]))
 
 
-run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction, soft_vs_rigid, packing_scatter)
+def computed(checks, folder, example, rows, *options):
+    """The table and the summary of an example, computed by --quick: its files are there, and its own checks hold."""
+    run = run_example(folder, f"{example}.py", "--quick", *options, "--out", example)
+    checks.that(f"{example} --quick", run.returncode == 0, said(run))
+    checks.that(f"{example} says what is random", "seed" in run.stdout or "nothing random" in run.stdout, run.stdout[:200])
+    out = os.path.join(folder, example)
+    checks.that(f"figure of {example}", os.path.getsize(os.path.join(out, "figure1.png")) > 10000)
+    table, summary = read_table(os.path.join(out, f"{example}.csv")), read_json(os.path.join(out, "summary.json"))
+    checks.that(f"rows of {example}", rows is None or len(table["cpu_s"]) == rows, len(table["cpu_s"]))
+    checks.that(f"checks of {example}", all(check["holds"] for check in summary["checks"]), summary["checks"])
+    return table, summary
+
+
+def mixed_packing(checks):
+    with Folder() as folder:
+        table, summary = computed(checks, folder, "mixed_packing", None)
+        ends = {(packing["rigid_fraction"], packing["friction"]): packing for packing in summary["packings"]}
+        checks.that("a packing a case", len(ends) == 6)
+        for friction in (0.0, 0.4):
+            fractions = [ends[rigid, friction]["fraction_at_100000_Pa"] for rigid in (0.0, 0.5, 1.0)]
+            checks.that("rigid discs fill less at a stress", fractions[0] > fractions[1] > fractions[2], fractions)
+        checks.that("friction keeps packings looser", all(ends[rigid, 0.4]["fraction_at_1e+06_Pa"] < ends[rigid, 0.0]["fraction_at_1e+06_Pa"]
+                                                          for rigid in (0.0, 0.5)), ends)
+        for case in ends:
+            rows = (table["rigid_fraction"] == case[0]) & (table["friction"] == case[1])
+            checks.that("strain grows", (numpy.diff(table["strain"][rows]) > 0).all())
+            jammed = rows & (table["stress_Pa"] > 1e5)
+            ratio = table["contact_stress_Pa"][jammed].sum() / table["stress_Pa"][jammed].sum()
+            checks.that(f"{case}: contacts bear what the walls measure", case[0] == 1 or abs(ratio - 1) < 0.02, ratio)
+
+
+def heavy_ball(checks):
+    with Folder() as folder:
+        table, summary = computed(checks, folder, "heavy_ball", 160)
+        checks.that("it falls in", 0.5e-3 < summary["deepest_m"] < 20e-3, summary["deepest_m"])
+        checks.that("its speed is that of the fall", abs(summary["impact"]["speed_m_s"] - (2 * 9.81 * 0.05)**0.5) < 1e-6)
+        weight = 8000 * numpy.pi * (4e-3)**2 * 9.81
+        checks.that("grains push harder than its weight", summary["largest_force_N_m"] > 3 * weight, summary)
+        checks.that("what is dissipated grows", all((numpy.diff(table[name]) >= -1e-9).all() for name in
+                                                    ("friction_J", "viscous_dissipation_J")))
+
+
+def funnel(checks):
+    with Folder() as folder:
+        table, summary = computed(checks, folder, "funnel", 150)
+        summed = numpy.sum(table["force_N_m"] * numpy.diff(table["way_m"], prepend=0))
+        checks.that("the work is that of the box's force", abs(summed / summary["work_J_m"] - 1) < 0.01, summed)
+        checks.that("force rises until the grain slips", table["force_N_m"].argmax() > 20)
+        again = run_example(folder, "funnel.py", "--quick", "--opening", "1.2")
+        checks.that("an opening that is none", again.returncode == 2 and "--opening 1.2" in again.stderr, said(again))
+
+
+def drum(checks):
+    with Folder() as folder:
+        table, summary = computed(checks, folder, "drum", 200)
+        checks.that("grains climb with the drum first", table["slope_deg"][60] > table["slope_deg"][0] + 10, table["slope_deg"][:60:10])
+        checks.that("the drum drives them", summary["torque_N"] > 0)
+
+
+run_tests(compaction, compaction_with_friction, squeeze, rigid_compaction, soft_vs_rigid, packing_scatter, mixed_packing, heavy_ball,
+          funnel, drum)

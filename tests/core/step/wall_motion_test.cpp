@@ -43,7 +43,9 @@ TEST(Piston, DoesNotRunFasterHoweverLongStepsAre)
             EXPECT_GE(v, before);
             EXPECT_LE(v, 0.5);
         }
-        if (dt >= 1e-4) EXPECT_NEAR(v, 0.5, 1e-6);
+        if (dt >= 1e-4) {
+            EXPECT_NEAR(v, 0.5, 1e-6);
+        }
     }
 }
 
