@@ -18,6 +18,12 @@ SMALL = ["--grains", "10", "--points", "60"]
 # example, options, words that the sentence has to hold
 BAD = [
     ("compaction", ["--grain", "3"], ["--grain", "--help"]),
+    ("mixed_packing", ["--rigid-fractions", "0", "1.5"], ["--rigid-fractions", "1.5", "between 0 and 1"]),
+    ("mixed_packing", ["--friction", "0", "0.1", "0.2", "0.3", "0.4"], ["--friction", "5 values", "four"]),
+    ("funnel", ["--opening", "1"], ["--opening 1", "narrower"]),
+    ("funnel", ["--slope", "88"], ["--slope 88", "85 degrees"]),
+    ("drum", ["--spin", "0"], ["--spin", "0"]),
+    ("heavy_ball", ["--grains", "0"], ["--grains", "0"]),
     ("compaction", ["--grains", "none"], ["--grains", "none"]),
     ("compaction", ["--grains", "0"], ["--grains", "0"]),
     ("compaction", ["--points", "5"], ["points", "5", "16"]),
