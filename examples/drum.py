@@ -3,8 +3,9 @@
 
     yade -n -x examples/drum.py [options]          --help lists them
 
-The drum is a polygon of facets that a RotationEngine turns once the grains have settled. Writes drum.csv (place of the grains' centre of
-mass, torque of the drum and energies, along time), figure1.png, snapshot_1.npz to snapshot_3.npz and summary.json into --out.
+The drum is a polygon of facets that a RotationEngine turns once the grains have settled. Writes drum.csv (place of the grains'
+centre of mass, torque of the drum and energies, along time), figure1.png, snapshot_1.npz to snapshot_3.npz and summary.json into
+--out.
 """
 import math
 
@@ -18,9 +19,9 @@ from softgrain.records import read_table
 from softgrain.runs import Run
 from softgrain.timed import Timed
 
-COLUMNS = ["time_s", "turn_rad", "centre_x_m", "centre_y_m", "slope_deg", "torque_N", "weight_moment_N", "angular_momentum_kg_m_s", "kinetic_J",
-           "elastic_J", "external_work_J", "friction_J", "contact_dissipation_J", "viscous_dissipation_J", "energy_residual_J",
-           "max_penetration_over_R", "cpu_s"]
+COLUMNS = ["time_s", "turn_rad", "centre_x_m", "centre_y_m", "slope_deg", "torque_N", "weight_moment_N",
+           "angular_momentum_kg_m_s", "kinetic_J", "elastic_J", "external_work_J", "friction_J",
+           "contact_dissipation_J", "viscous_dissipation_J", "energy_residual_J", "max_penetration_over_R", "cpu_s"]
 QUICK = {"grains": 20, "radius": 16e-3, "settle": 0.1, "duration": 0.4}
 GRAVITY, DIAMETERS, FILL, SIDES = 9.81, (3e-3, 5e-3), 0.7, 36     # [m/s²], [m], of the cloud, of the polygon
 ROWS, SHOTS = 200, (0, 60, 200)
@@ -105,7 +106,8 @@ class Drum:
         time = O.time - self.run.options.settle
         return {"time_s": time, "turn_rad": spin * time, "centre_x_m": x, "centre_y_m": y,
                 "slope_deg": math.degrees(math.atan2(x, -y)), "torque_N": torque, "weight_moment_N": weight * x,
-                "angular_momentum_kg_m_s": self.angular_momentum(), "kinetic_J": soft.kineticEnergy(), "elastic_J": soft.elasticEnergy(), "external_work_J": soft.externalWork,
+                "angular_momentum_kg_m_s": self.angular_momentum(), "kinetic_J": soft.kineticEnergy(),
+                "elastic_J": soft.elasticEnergy(), "external_work_J": soft.externalWork,
                 "friction_J": soft.frictionDissipation, "contact_dissipation_J": soft.contactDissipation,
                 "viscous_dissipation_J": soft.viscousDissipation, "energy_residual_J": self.missing() - memory["missing"],
                 "max_penetration_over_R": soft.maxPenetration(), "cpu_s": self.run.cpu_seconds()}
@@ -144,7 +146,8 @@ def conclude(run):
     work = table["friction_J"][-1] + table["contact_dissipation_J"][-1] + table["viscous_dissipation_J"][-1]
     missing = float(numpy.max(numpy.abs(table["energy_residual_J"])) / work)
     result = {**summary.head(run), "slope_deg": slope, "torque_N": float(table["torque_N"][ROWS // 2:].mean()),
-              "angular_momentum_residual": lost, "energy_residual_over_dissipation": missing, "cpu_s": run.cpu_seconds()}
+              "angular_momentum_residual": lost, "energy_residual_over_dissipation": missing,
+              "cost": summary.costs(run, measures.pointTotal(), O.iter, summary.stages())}
     run.options.figures = False
     return runs.conclude(run, result, [
         (f"energy balance closes within {BALANCE:.0%} of what is dissipated ({missing:.2g})", missing < BALANCE),

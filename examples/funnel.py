@@ -135,7 +135,7 @@ def conclude(run, passage):
     width = table["width_m"][-1] / (2 * radius)
     result = {**summary.head(run), "work_J_m": work, "largest_force_N_m": float(max(table["force_N_m"])),
               "narrowest_over_diameter": float(min(table["width_m"]) / (2 * radius)), "width_at_end_over_diameter": width,
-              "energy_residual_over_work": missing, "cpu_s": run.cpu_seconds()}
+              "energy_residual_over_work": missing, "cost": summary.costs(run, measures.pointTotal(), O.iter, summary.stages())}
     run.options.figures = False
     return runs.conclude(run, result, [
         (f"energy balance closes within {BALANCE:.0%} of the work ({missing:.2g})", missing < BALANCE),

@@ -132,7 +132,8 @@ def conclude(run, ball):
     missing = max(abs(table["energy_residual_J"])) / impact
     deepest = float(max(table["depth_m"]))
     result = {**summary.head(run), "impact": {"speed_m_s": run.memory["speed"], "energy_J_m": impact}, "deepest_m": deepest,
-              "largest_force_N_m": float(max(table["force_N_m"])), "energy_residual_over_impact": missing, "cpu_s": run.cpu_seconds()}
+              "largest_force_N_m": float(max(table["force_N_m"])), "energy_residual_over_impact": missing,
+              "cost": summary.costs(run, measures.pointTotal(), O.iter, summary.stages())}
     stopped = max(table["velocity_m_s"]) >= 0
     run.options.figures = False
     return runs.conclude(run, result, [

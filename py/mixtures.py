@@ -69,7 +69,8 @@ class Mixture:
         missing = self._stored() - energy + self.soft.frictionDissipation + self.soft.contactDissipation - work
         coordination, rattlers, contacts = measures.coordination(measures.contactPairs(), self.ids, self.friction > 0)
         return {"rigid_fraction": self.rigid, "friction": self.friction, "time_s": O.time, "strain": self.box.strain[0],
-                "solid_fraction": (self.soft.solidArea() + self.rigid_area) / area, "stress_Pa": numpy.mean(self.box.wallStress),
+                "solid_fraction": (self.soft.solidArea() + self.rigid_area) / area,
+                "stress_Pa": numpy.mean(self.box.wallStress),
                 "coordination": coordination, "rattlers": rattlers, "contacts": contacts, "max_penetration_over_R": self.soft.maxPenetration(),
                 "energy_residual_over_work": missing / work if work > 0 else 0.0}
 

@@ -8,10 +8,10 @@ import numpy
 from yade import O, pack, utils
 from yade.minieigenHP import Vector3
 from yade.pack import SpherePack
-from yade.wrapper import FrictMat, UniaxialStrainer
+from yade.wrapper import ForceRecorder, FrictMat, UniaxialStrainer, VTKRecorder
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import run_tests  # noqa: E402
+from scene_testing import Folder, run_tests  # noqa: E402
 from softgrain import (NeoHookeanMat, SoftBoxController, arrays, measures, rigidDisc, softBox, softCloud, softDisc,  # noqa: E402
                        softEngines, stresses)
 
@@ -168,6 +168,30 @@ def packs(checks):
     checks.that("a predicate tells of material points", all(inside((x, y, 0), 0) for x, y in where))
 
 
+def others(checks):
+    start()
+    O.bodies.append([softDisc((x * R, 0), R, "gel", points=60) for x in (0, 1.999)])
+    with Folder() as folder:
+        O.engines = softEngines(more=[VTKRecorder(fileName=folder + "/shot-", recorders=["all"], iterPeriod=1),
+                                      ForceRecorder(ids=[0], file=folder + "/force.txt", iterPeriod=1)])
+        run(3)
+        checks.that("VTKRecorder and ForceRecorder run", len(os.listdir(folder)) > 3, os.listdir(folder))
+        O.engines = softEngines()
+    checks.that("utils.fabricTensor finds no spheres", numpy.isnan(numpy.array(utils.fabricTensor()[0])).all())
+    utils.growParticles(2)
+    run(1)
+    checks.that("utils.growParticles leaves soft grains alone", O.bodies[0].shape.radius == R)
+    checks.raises("utils.normalShearStressTensors", RuntimeError, [], lambda: sentence(utils.normalShearStressTensors))
+
+
+def sentence(work):
+    """YADE's messages end as they like."""
+    try:
+        work()
+    except RuntimeError as error:
+        raise RuntimeError(str(error).rstrip(".") + ".") from None
+
+
 def erased(checks):
     box = jammed()
     count = len(O.bodies)
@@ -178,4 +202,5 @@ def erased(checks):
     checks.that("and no force of it stays", not (stresses.contactPoints().ids == 3).any())
 
 
-run_tests(motion, forces, stress_functions, strained, masks, packs, erased)
+run_tests(motion, forces, stress_functions, strained, masks, packs, others,
+          erased)
