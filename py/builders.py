@@ -328,7 +328,7 @@ def _body(name, center, shape, material, points, angle, color, velocity, spin, a
     body.shape = _shape(name, dict(shape, points=points))
     if color is not None:
         body.shape.color = _colour(name, color)
-    body.material = _material(name, material, wrapper.SoftMat, "NeoHookeanMat, a MooneyRivlinMat or a PlasticMat")
+    body.material = _material(name, material, wrapper.SoftMat, "NeoHookeanMat or another SoftMat")
     state = wrapper.SoftState()
     state.pos = state.refPos = Vector3(*center)
     state.ori = state.refOri = Quaternion(Vector3(0, 0, 1), angle)

@@ -53,7 +53,8 @@ class Curves:
         if self.name.startswith("rigid"):
             label = "rigid discs"
         else:
-            label = {"nh": "Neo-Hookean", "mr": "Mooney-Rivlin", "plastic": "elastoplastic"}.get(parameters.get("material"), self.name)
+            label = {"nh": "Neo-Hookean", "mr": "Mooney-Rivlin", "plastic": "elastoplastic",
+                     "ogden": "Ogden"}.get(parameters.get("material"), self.name)
         if parameters.get("friction"):
             label += f", friction {parameters['friction']:g}"
         return label

@@ -131,11 +131,13 @@ def refuse_nothing_to_press(options):
 def add_material(parser):
     """The options of which make_material makes a material."""
     group = parser.add_argument_group("the material of the grains")
-    group.add_argument("--material", choices=("nh", "mr", "plastic"), default="nh",
-                       help="Neo-Hookean, Mooney-Rivlin or elastoplastic")
+    group.add_argument("--material", choices=("nh", "mr", "ogden", "plastic"), default="nh",
+                       help="Neo-Hookean, Mooney-Rivlin, Ogden or elastoplastic")
     group.add_argument("--lambda", type=finite, default=61e6, dest="lambda_", metavar="PA",
-                       help="Neo-Hookean and elastoplastic, Pa")
-    group.add_argument("--mu", type=positive, default=1.26e6, metavar="PA", help="Neo-Hookean and elastoplastic, Pa")
+                       help="all but Mooney-Rivlin, Pa")
+    group.add_argument("--mu", type=positive, default=1.26e6, metavar="PA", help="all but Mooney-Rivlin: shear modulus, Pa")
+    group.add_argument("--alpha", type=finite, default=6.0, metavar="ALPHA",
+                       help="Ogden: exponent; the coefficient is 2 mu / alpha")
     group.add_argument("--yield-stress", type=positive, default=0.1e6, metavar="PA", help="elastoplastic, Pa")
     group.add_argument("--hardening", type=not_negative, default=0.0, metavar="PA", help="elastoplastic, Pa")
     group.add_argument("--c1", type=finite, default=0.63e6, metavar="PA", help="Mooney-Rivlin, Pa")
@@ -151,6 +153,10 @@ def make_material(options):
     common = {"density": options.density, "viscosity": options.viscosity, "label": "grains"}
     if options.material == "nh":
         return wrapper.NeoHookeanMat(lambda_=options.lambda_, mu=options.mu, **common)
+    if options.material == "ogden":
+        if options.alpha == 0:
+            raise InputError("--alpha 0 gives no energy: give another exponent.")
+        return wrapper.OgdenMat(lambda_=options.lambda_, mu=[2 * options.mu / options.alpha], alpha=[options.alpha], **common)
     if options.material == "plastic":
         return wrapper.PlasticMat(lambda_=options.lambda_, mu=options.mu, yieldStress=options.yield_stress,
                                   hardening=options.hardening, **common)

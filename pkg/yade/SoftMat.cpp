@@ -12,7 +12,7 @@ YADE_PLUGIN((SoftMat));
 
 std::string SoftMat::lawName() const
 {
-    throw softgrain::UserError("SoftMat is no material of its own; take NeoHookeanMat, MooneyRivlinMat or PlasticMat.");
+    throw softgrain::UserError("SoftMat is no material of its own; take a class made from it, such as NeoHookeanMat.");
 }
 
 std::array<double, softgrain::max_parameters> SoftMat::lawParameters() const { return {}; }

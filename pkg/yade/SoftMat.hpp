@@ -9,14 +9,8 @@
 
 namespace yade {
 
-// Materials of soft grains. They share the class index of SoftMat, so that YADE dispatches on SoftMat and a new
-// material needs no new functor.
-//
-//   FrictMat
-//     SoftMat
-//       NeoHookeanMat
-//       MooneyRivlinMat
-//       PlasticMat
+// Base of NeoHookeanMat and its like, each a file of its own. They share the class index of SoftMat, so that YADE dispatches on
+// SoftMat and a new material needs no new functor.
 class SoftMat : public FrictMat {
 public:
     /// Name of the law in the core; the parameters go in the order that the law names them.

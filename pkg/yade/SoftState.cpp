@@ -36,7 +36,7 @@ namespace {
         const auto* material = dynamic_cast<const SoftMat*>(body.material.get());
         if (!material)
             throw softgrain::UserError(whose(body.id)
-                                       + ": its material has to be a NeoHookeanMat, a MooneyRivlinMat or a PlasticMat.");
+                                       + ": its material has to be one of soft grains, such as NeoHookeanMat.");
         try {
             grain.law = &material->law();
         } catch (const softgrain::UserError& error) {

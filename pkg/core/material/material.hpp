@@ -5,8 +5,7 @@
 //
 // U is the part that makes a nearly incompressible grain stiff. The grid evaluates it with the mean J of a
 // region (mean dilatation), w at every material point: that is the cure of volumetric locking. A law is a
-// struct like NeoHookean below; all its functions are pure and work on lanes. To add one: write its file,
-// then name it once in step/kernels.cpp.
+// struct like NeoHookean; all its functions are pure and work on lanes. doc/add_a_law.md shows how to add one.
 //
 //     name              what messages and files call it
 //     parameters        names of its constants, in the order of the array p [Pa]
@@ -16,8 +15,9 @@
 //     shear_modulus     mu of the small-strain limit [Pa]
 //     energy            w(F) [J/m3]
 //     stress            dw/dF [Pa], given cof F and 1/J
-//     volumetric_curvature  U''(J) [Pa]
-//     plane_tangent     d2w/dF2 in the plane [Pa], given 1/J too
+//     volumetric_curvature  U''(J) [Pa], given 1/J too
+//     plane_tangent     d2w/dF2 in the plane [Pa], where it has the form of PlaneTangent; left out, differences of the stress
+//                       stand in (step/point_tangent.hpp)
 //     wave_modulus      lambda + 2 mu of the small-strain limit [Pa]
 //     complaint         why the constants give an unstable energy, or ""
 //     memory            first values of what a point remembers; the functions above find it behind the constants in p. Its
@@ -41,6 +41,29 @@ namespace softgrain {
 /// (dilatation and rotation) and -1 (the two shears).
 template <class T> struct PlaneTangent {
     T identity, cofactor, bend;
+};
+
+/// U = lambda/2 (ln J)^2, lambda the first of a law's constants.
+struct LogarithmicVolume {
+    template <class T> static SOFTGRAIN_INLINE T volumetric_energy(const T* p, const T& J)
+    {
+        const T log_J = logarithm(J);
+        return 0.5 * p[0] * log_J * log_J;
+    }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_modulus(const T* p) { return p[0]; }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T& inverse_J)
+    {
+        return p[0] * logarithm(J) * inverse_J;
+    }
+    template <class T> static SOFTGRAIN_INLINE T volumetric_curvature(const T* p, const T& J, const T& inverse_J)
+    {
+        return p[0] * (1.0 - logarithm(J)) * inverse_J * inverse_J;
+    }
+    static std::string volumetric_complaint(const double* p)
+    {
+        if (!(p[0] >= 0) || !std::isfinite(p[0])) return "lambda = " + shown(p[0]) + " Pa has to be 0 or more, and finite";
+        return "";
+    }
 };
 
 } // namespace softgrain

@@ -7,27 +7,12 @@ namespace softgrain {
 
 /// Compressible Neo-Hookean solid, Vu et al. 2017, eq. 7: S = (lambda ln J - mu) C^-1 + mu I, which derives from
 ///     W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2.
-struct NeoHookean {
+struct NeoHookean : LogarithmicVolume {
     static constexpr const char* name = "Neo-Hookean";
     static constexpr std::array<const char*, 2> parameters { "lambda", "mu" };
     static constexpr std::array<double, 0> memory {};
 
-    template <class T> static SOFTGRAIN_INLINE T volumetric_energy(const T* p, const T& J)
-    {
-        const T log_J = logarithm(J);
-        return 0.5 * p[0] * log_J * log_J;
-    }
-    template <class T> static SOFTGRAIN_INLINE T volumetric_modulus(const T* p) { return p[0]; }
     template <class T> static SOFTGRAIN_INLINE T shear_modulus(const T* p) { return p[1]; }
-    template <class T> static SOFTGRAIN_INLINE T volumetric_slope(const T* p, const T& J, const T& inverse_J)
-    {
-        return p[0] * logarithm(J) * inverse_J;
-    }
-
-    template <class T> static SOFTGRAIN_INLINE T volumetric_curvature(const T* p, const T& J, const T& inverse_J)
-    {
-        return p[0] * (1.0 - logarithm(J)) * inverse_J * inverse_J;
-    }
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
     {
@@ -52,8 +37,7 @@ struct NeoHookean {
     static std::string complaint(const double* p)
     {
         if (!(p[1] > 0) || !std::isfinite(p[1])) return "mu = " + shown(p[1]) + " Pa has to be positive and finite";
-        if (!(p[0] >= 0) || !std::isfinite(p[0])) return "lambda = " + shown(p[0]) + " Pa has to be 0 or more, and finite";
-        return "";
+        return volumetric_complaint(p);
     }
 };
 

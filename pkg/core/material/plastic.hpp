@@ -70,7 +70,7 @@ struct Plastic {
             kept = 1.0 - 3.0 * mu * flow / larger(stress, broadcast<T>(1e-300));
         }
         /// Of D in e; where D vanishes it does not matter.
-        SOFTGRAIN_INLINE T slope() const { return 0.5 * half / larger(radius, broadcast<T>(1e-300)); }
+        SOFTGRAIN_INLINE T slope() const { return 0.5 * half / larger(radius, broadcast<T>(1e-100)); }
     };
 
     template <int Dim, class T> static SOFTGRAIN_INLINE T energy(const T* p, const Tensor<Dim, T>& F)
@@ -102,7 +102,7 @@ struct Plastic {
         const T lost = 1.0 - trial.kept, scale = exponential(-2.0 * lost * trial.mean),
                 stretch = exponential(lost * trial.half), inverse_stretch = 1.0 / stretch,
                 cosh = 0.5 * (stretch + inverse_stretch), sinh = 0.5 * (stretch - inverse_stretch);
-        const T small = larger(trial.radius, broadcast<T>(1e-300));
+        const T small = larger(trial.radius, broadcast<T>(1e-100));
         const T even = scale * (trial.middle * cosh - trial.radius * sinh) - trial.middle,
                 odd = scale * (cosh - trial.middle * sinh / small) - 1.0; // of 1 and of D in the change of b
         const Tensor<2, T> cof = cofactor(F);
@@ -126,7 +126,7 @@ struct Plastic {
         return dissipated;
     }
     /// Constants of the same solid without flow.
-    static std::array<double, 4> elastic(std::array<double, 4> p)
+    template <class Constants> static Constants elastic(Constants p)
     {
         p[2] = std::numeric_limits<double>::infinity();
         return p;

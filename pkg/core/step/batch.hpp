@@ -13,7 +13,7 @@
 
 namespace softgrain {
 
-constexpr int max_parameters = 4;
+constexpr int max_parameters = 7;
 
 /// What a kernel needs, as plain pointers.
 template <int Dim> struct KernelData {

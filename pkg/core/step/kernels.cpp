@@ -4,6 +4,7 @@
 
 #include "material/mooney_rivlin.hpp"
 #include "material/neo_hookean.hpp"
+#include "material/ogden.hpp"
 #include "material/plastic.hpp"
 #include "step/advance_kernel.hpp"
 #include "step/stiffness_kernel.hpp"
@@ -67,7 +68,7 @@ namespace {
             kernels.memory_count = int(Law::memory.size());
             kernels.first_memory = Law::memory.data();
             kernels.advance = Versions<kernels::Advance<Dim, Law>, const KernelData<Dim>&, double*>::table();
-            kernels.elastic = &Law::elastic;
+            kernels.elastic = &Law::template elastic<std::array<double, max_parameters>>;
         }
         return kernels;
     }
@@ -75,8 +76,10 @@ namespace {
     /// The register of laws.
     template <int Dim> const std::vector<LawKernels<Dim>>& laws()
     {
-        static const std::vector<LawKernels<Dim>> all { kernels_of<Dim, NeoHookean>(), kernels_of<Dim, MooneyRivlin>(),
-                                                        kernels_of<Dim, Plastic>() };
+        static const std::vector<LawKernels<Dim>> all {
+            kernels_of<Dim, NeoHookean>(), kernels_of<Dim, MooneyRivlin>(), kernels_of<Dim, Plastic>(),
+            kernels_of<Dim, Ogden<1>>(),   kernels_of<Dim, Ogden<2>>(),     kernels_of<Dim, Ogden<3>>(),
+        };
         return all;
     }
 

@@ -5,6 +5,7 @@
 
 #include "base/tensor.hpp"
 #include "step/batch.hpp"
+#include "step/point_tangent.hpp"
 
 namespace softgrain::kernels {
 
@@ -290,7 +291,7 @@ SOFTGRAIN_INLINE void region_stress(T* p, const double* memory, double share, do
     }
 }
 
-/// Adds the elastic energy of a region to `sum`; `smallest` falls to the smallest principal stretch.
+/// Adds the elastic energy of a region to `sum`; `smallest` falls to the smallest bounding_stretch.
 template <int Dim, class Law, int L, class T>
 SOFTGRAIN_INLINE void region_energy(T* p, const double* memory, double share, double volume, const Tensor<Dim, T>* F, T& sum,
                                     T& smallest)
@@ -300,8 +301,8 @@ SOFTGRAIN_INLINE void region_energy(T* p, const double* memory, double share, do
     for (int q = 0; q < points; ++q) {
         J[q] = determinant(F[q]);
         mean += J[q];
-        smallest = smaller(smallest_stretch(F[q]), smallest);
         recall<Law, L>(memory, q, p);
+        smallest = smaller(bounding_stretch<Law>(p, F[q]), smallest);
         sum += volume / points * Law::template energy<Dim, T>(p, F[q]);
     }
     mean *= 1.0 / points;

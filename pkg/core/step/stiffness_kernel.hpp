@@ -3,17 +3,15 @@
 // vectors [row of the pattern][Dim][lane].
 #pragma once
 
-#include "material/material.hpp"
 #include "step/kernels.hpp"
+#include "step/point_tangent.hpp"
 #include "step/stiffness_pattern.hpp"
 
 namespace softgrain::kernels {
 
 /// The second derivative of the energy of InternalForce, made positive semi-definite, plus `inertia` [lane] times the node
-/// masses. In the plane a point's share is, with h = cof F grad N,
-///     (identity + cofactor h h^T + bend d2J) with bend = w's + U'(mean J) + k (J - mean J),
-/// whose eigenvalues without the cofactor's are identity + bend and identity - bend: negative ones are set to zero. The mean
-/// J adds (U'' - k) times its own gradient squared for each region.
+/// masses. A point's share is that of point_tangent.hpp with U'(mean J) + k (J - mean J) as the factor of d2J/dF2. The mean J
+/// adds (U'' - k) times its own gradient squared for each region.
 template <int Dim, class Law> struct Stiffness {
     static_assert(Dim == 2, "the spectrum of d2J/dF2 is that of the plane");
     template <class T, int L>
@@ -41,48 +39,54 @@ template <int Dim, class Law> struct Stiffness {
             const T curvature = larger(Law::volumetric_curvature(p, J[points], inverse_J[points]), T {});
             const T stiff = stabilisation<Law>(region.pointwise, p);
             const double volume = region.volume / points;
-            T even[points], odd[points], outer[points], h[points][most][Dim], mean[most][Dim];
+            using Point = decltype(point_tangent<Law>(p, F[0], J[0], inverse_J[0], slope, stiff, sum));
+            Point point[points];
+            T h[points][Point::ranks][most][Dim], mean[most][Dim]; // directions and cof F times the gradients
             for (int a = 0; a < region.rows; ++a)
                 mean[a][0] = mean[a][1] = T {};
             for (int q = 0; q < points; ++q) {
-                const PlaneTangent<T> tangent = Law::plane_tangent(p, J[q], inverse_J[q]);
-                const T bend = tangent.bend + slope + stiff * (J[q] - J[points]);
-                const T plus = larger(tangent.identity + bend, T {}), minus = larger(tangent.identity - bend, T {});
-                even[q] = 0.5 * volume * (plus + minus);
-                odd[q] = 0.5 * volume * (plus - minus);
-                outer[q] = volume * (tangent.cofactor + stiff);
+                point[q] = point_tangent<Law>(p, F[q], J[q], inverse_J[q], slope, stiff, J[q] - J[points]);
+                point[q].scale(volume);
                 const Tensor<Dim, T> cof = cofactor(F[q]);
                 const double* gradient = &pattern->region_gradient[region.gradient + size_t(q) * region.rows * Dim];
                 for (int a = 0; a < region.rows; ++a)
                     for (int i = 0; i < Dim; ++i) {
-                        h[q][a][i] = cof.at[i][0] * gradient[2 * a] + cof.at[i][1] * gradient[2 * a + 1];
-                        mean[a][i] += (1.0 / points) * h[q][a][i];
+                        const auto along = [&](const Tensor<Dim, T>& A) {
+                            return A.at[i][0] * gradient[2 * a] + A.at[i][1] * gradient[2 * a + 1];
+                        };
+                        for (int r = 0; r < Point::ranks; ++r)
+                            h[q][r][a][i] = along(point[q].direction[r]);
+                        mean[a][i] += (1.0 / points) * along(cof);
                     }
             }
             const T common = region.volume * (curvature - stiff);
             const double* gradient = &pattern->region_gradient[region.gradient];
             for (int a = 0; a < region.rows; ++a) {
-                T weighted[points + 1][Dim];
-                for (int i = 0; i < Dim; ++i) {
+                T weighted[points][Point::ranks][Dim];
+                for (int i = 0; i < Dim; ++i)
                     for (int q = 0; q < points; ++q)
-                        weighted[q][i] = outer[q] * h[q][a][i];
-                    weighted[points][i] = common * mean[a][i];
-                }
+                        for (int r = 0; r < Point::ranks; ++r) {
+                            T sum = point[q].outer[r][0] * h[q][0][a][i];
+                            for (int s = 1; s < Point::ranks; ++s)
+                                sum += point[q].outer[r][s] * h[q][s][a][i];
+                            weighted[q][r][i] = sum;
+                        }
                 for (int b = 0; b <= a; ++b) {
                     T same {}, cross {};
                     T entry[Dim][Dim];
                     for (int i = 0; i < Dim; ++i)
                         for (int j = 0; j < Dim; ++j)
-                            entry[i][j] = weighted[points][i] * mean[b][j];
+                            entry[i][j] = common * mean[a][i] * mean[b][j];
 #pragma GCC unroll 4
                     for (int q = 0; q < points; ++q) {
                         const double *ga = gradient + (q * region.rows + a) * Dim,
                                      *gb = gradient + (q * region.rows + b) * Dim;
-                        same += even[q] * (ga[0] * gb[0] + ga[1] * gb[1]);
-                        cross += odd[q] * (ga[0] * gb[1] - ga[1] * gb[0]);
-                        for (int i = 0; i < Dim; ++i)
-                            for (int j = 0; j < Dim; ++j)
-                                entry[i][j] += weighted[q][i] * h[q][b][j];
+                        same += point[q].even * (ga[0] * gb[0] + ga[1] * gb[1]);
+                        cross += point[q].odd * (ga[0] * gb[1] - ga[1] * gb[0]);
+                        for (int r = 0; r < Point::ranks; ++r)
+                            for (int i = 0; i < Dim; ++i)
+                                for (int j = 0; j < Dim; ++j)
+                                    entry[i][j] += weighted[q][r][i] * h[q][r][b][j];
                     }
                     const long block = long(pattern->block(row[a], row[b])) * Dim * Dim;
                     K[block] += entry[0][0] + same;

@@ -80,6 +80,7 @@ TEST(InternalForce, IsTheSlopeOfTheEnergyInOneLane)
 {
     expect_forces_are_slopes(neo_hookean(), 1);
     expect_forces_are_slopes(mooney_rivlin(), 1);
+    expect_forces_are_slopes(ogden(), 1);
 }
 
 TEST(InternalForce, IsTheSlopeOfTheEnergyInManyLanes)

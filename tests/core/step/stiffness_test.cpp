@@ -67,7 +67,7 @@ Eigen::VectorXd random_load(Random& random, const Grain<2>& grain)
 TEST(Stiffness, IsTheSlopeOfTheForcesAtRest)
 {
     Random random(1);
-    for (const Material& material : { neo_hookean(), mooney_rivlin() })
+    for (const Material& material : { neo_hookean(), mooney_rivlin(), ogden() })
         for (double angle : { 0.0, 1.3 }) {
             GrainStart start;
             start.angle = angle;
@@ -82,7 +82,7 @@ TEST(Stiffness, IsTheSlopeOfTheForcesAtRest)
 TEST(Stiffness, IsPositiveSemiDefiniteAndNotBelowTheSlopeOfTheForces)
 {
     Random random(2);
-    for (const Material& material : { neo_hookean(), mooney_rivlin() }) {
+    for (const Material& material : { neo_hookean(), mooney_rivlin(), ogden() }) {
         Grain<2> grain = make_grain(disc_mesh(60), material);
         for (int i = 0; i < grain.mesh->master_count; ++i)
             for (int d = 0; d < 2; ++d)

@@ -18,6 +18,7 @@ struct Material {
 inline Material neo_hookean() { return { "Neo-Hookean", { 61e6, 1.26e6 } }; }
 inline Material soft_neo_hookean() { return { "Neo-Hookean", { 1e6, 1e6 } }; }
 inline Material mooney_rivlin() { return { "Mooney-Rivlin", { 0.63e6, -0.0012e6, 6e6 } }; }
+inline Material ogden() { return { "Ogden of two terms", { 61e6, 0.3e6, 6, -0.4e6, -1.8 } }; }
 
 using Mesh = std::shared_ptr<const Discretisation<2>>;
 
