@@ -90,6 +90,8 @@ void SoftIntegrator::advance(double dt)
     watch.stage(1);
 
     loads_.gather(*scene, gravity, threads());
+    if (damping > 0) refuseUndamped();
+    assembly_->damping = damping;
     assembly_->predict(kick, gravity.head<2>(), threads());
     watch.stage(0);
 
@@ -152,6 +154,7 @@ void SoftIntegrator::countDissipation()
     const auto dissipated = assembly_->dissipated();
     viscousDissipation += dissipated.viscous;
     plasticDissipation += dissipated.plastic;
+    dampingDissipation += dissipated.numerical;
 }
 
 void SoftIntegrator::countPulls()
@@ -357,6 +360,7 @@ void SoftIntegrator::trackEnergies()
     energy.set(contactDissipation, "softContact", contactId_);
     if (viscousDissipation > 0) energy.set(viscousDissipation, "softViscous", viscousId_);
     if (plasticDissipation > 0) energy.set(plasticDissipation, "softPlastic", plasticId_);
+    if (dampingDissipation > 0) energy.set(dampingDissipation, "softDamping", dampingId_);
     energy.set(-externalWork, "softExternalWork", workId_);
     if (adhesionWork != 0) energy.set(adhesionWork, "softAdhesion", adhesionId_);
 }

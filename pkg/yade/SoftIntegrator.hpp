@@ -52,6 +52,7 @@ public:
                      ,
                      "Share of a penetration that the contact law takes back in one step [-]. Penetrations are errors of the discrete surfaces, of "
                      "about 1e-4 radii; taken back at once (1) they would feed energy in."))(
+                    (Real, damping, 0, , "Numerical damping for relaxation, 0 (none) to below 1 [-]: Cundall's, as NewtonIntegrator.damping for rigid bodies, on each grain as a whole (along its motion, not axis by axis) and on its nodes relative to that. Gravity is damped too, as by default there; flight without forces is not. Explicit steps and total-Lagrangian grains without blockedDOFs."))(
                     (int, maxSweeps, 1000, , "Most sweeps of the contact solver in a step [-]."))(
                     (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
                     (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
@@ -61,6 +62,7 @@ public:
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
                     (Real, plasticDissipation, 0, Attr::readonly, "Energy dissipated by plastic flow in the grains since the start, the work of hardening included [J/m]."))(
                     (Real, viscousDissipation, 0, Attr::readonly, "Energy dissipated by the viscosity of the grains since the start [J/m]."))(
+                    (Real, dampingDissipation, 0, Attr::readonly, "Energy dissipated by damping in the grains since the start [J/m]."))(
                     (Real, adhesionWork, 0, Attr::readonly, "Work against adhesion since the start [J/m]: stored where it is reversible."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
                     (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
@@ -106,6 +108,7 @@ protected:
     void countDissipation();
     void refuseStrangersNowAndThen();
     void refuseCollapse() const;
+    void refuseUndamped() const;
     std::vector<TouchingPair> touchingPairs() const;
     std::vector<RigidPair> rigidPairs() const;
     void meetThemselves() const;
@@ -139,8 +142,8 @@ private:
     size_t interactionCount_ = 0;        ///< in the last step
     Real evaluatedJ_ = 1;                ///< smallest J when the stable step was evaluated
     long evaluatedStep_ = -1;            ///< and the step of it
-    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, plasticId_ = -1, workId_ = -1,
-        adhesionId_ = -1;
+    int elasticId_ = -1, kineticId_ = -1, frictionId_ = -1, contactId_ = -1, viscousId_ = -1, plasticId_ = -1,
+        dampingId_ = -1, workId_ = -1, adhesionId_ = -1;
 };
 REGISTER_SERIALIZABLE(SoftIntegrator);
 

@@ -61,8 +61,23 @@ void SoftIntegrator::requireSaneAttributes() const
     demand(maxSweeps > 0, "maxSweeps", maxSweeps, "be 1 or more");
     demand(recovery >= 0 && recovery <= 1, "recovery", recovery, "lie between 0 and 1");
     demand(checkInterval > 0, "checkInterval", checkInterval, "be 1 or more");
+    demand(damping >= 0 && damping < 1, "damping", damping, "be 0 or more and less than 1");
     demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2],
            "be 0 and the others finite: grains stay in the xy-plane");
+}
+
+/// Grains to which the damping of nodes is not known.
+void SoftIntegrator::refuseUndamped() const
+{
+    for (const SoftState* state : soft_.states) {
+        const std::string begin = "soft grain #" + std::to_string(state->grain.id)
+            + ": SoftIntegrator.damping = " + softgrain::shown(damping) + " is not known to ";
+        if (state->grain.updated)
+            throw std::runtime_error(begin + "formulation='updated'; give damping=0, or take formulation='total'.");
+        const auto held = state->held();
+        if (held[0] || held[1] || held[2])
+            throw std::runtime_error(begin + "blockedDOFs; give damping=0, or free the grain.");
+    }
 }
 
 void SoftIntegrator::refuseStrangersNowAndThen()

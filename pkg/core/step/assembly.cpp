@@ -231,11 +231,13 @@ template <int Dim> Assembly<Dim>::~Assembly()
 template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravity, int threads)
 {
     const int count = int(batches_.size());
+    if (damping > 0) local_damping_.resize(batches_.size());
 #pragma omp parallel for num_threads(team(threads, batches_.size())) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
         Batch<Dim>& batch = *batches_[b];
         const int lanes = batch.lanes;
         const auto& kernels = motion_kernels<Dim>();
+        if (damping > 0) local_damping_[b].begin(batch); // also of those that contacts will wake
         asleep_[b] &= std::all_of(members_[b].begin(), members_[b].end(),
                                   [&](const Grain<Dim>* grain) { return is_left_alone(*grain, gravity); });
         if (asleep_[b]) continue;
@@ -297,6 +299,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         asleep_[b] &= !struck;
         if (asleep_[b]) continue;
         const auto& kernels = motion_kernels<Dim>();
+        if (damping > 0) local_damping_[b].strike(batch);
         if (struck) {
             std::fill_n(values, size_t(Dim) * batch.mesh->surface_count() * lanes, 0);
             for (size_t lane = 0; lane < members_[b].size(); ++lane) {
@@ -308,6 +311,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
             }
             kernels.push[batch.wide()](batch.data(), batch.extent.data());
         }
+        if (damping > 0) dissipated_[b].numerical = local_damping_[b].end(batch, members_[b], damping);
         if (!batch.viscosity.empty()) dissipated_[b].viscous += viscous_loss(b) / 2;
         kernels.drift[batch.wide()](batch.data(), dt);
         sound[b] = observe(b, dt, after);

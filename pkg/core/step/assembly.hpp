@@ -11,6 +11,7 @@
 
 #include "solver/contact_problem.hpp"
 #include "step/grain.hpp"
+#include "step/local_damping.hpp"
 
 #include <functional>
 
@@ -32,6 +33,8 @@ public:
     Assembly(const Assembly&) = delete;
     Assembly& operator=(const Assembly&) = delete;
 
+    /// Of local_damping.hpp, 0 to 1: none to strong [-]. Total-Lagrangian grains alone know it.
+    double damping = 0;
     /// Velocities of the surfaces without contact impulses. Throws SimulationError when a point has inverted.
     void predict(double dt, const Vec<Dim>& gravity, int threads);
     using Visit = std::function<void(Grain<Dim>&)>;
@@ -44,7 +47,7 @@ public:
     void renew(double dt, int threads, const Visit& after = {});
     /// In the grains in the last step [J].
     struct Dissipation {
-        double viscous = 0, plastic = 0;
+        double viscous = 0, plastic = 0, numerical = 0;
     };
     Dissipation dissipated() const;
     /// Smallest J of a material point at the last predict or renew, 1 at most.
@@ -79,9 +82,10 @@ private:
     std::vector<std::unique_ptr<Batch<Dim>>> batches_;
     std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
     std::vector<Grain<Dim>*> updated_;
-    std::vector<double> least_J_;         ///< of each batch, then of each updated-Lagrangian grain
-    std::vector<Dissipation> dissipated_; ///< of each batch, in the last step
-    std::vector<char> asleep_;            ///< of each batch: at rest since it is here
+    std::vector<double> least_J_;                  ///< of each batch, then of each updated-Lagrangian grain
+    std::vector<Dissipation> dissipated_;          ///< of each batch, in the last step
+    std::vector<LocalDamping<Dim>> local_damping_; ///< of each batch, where there is any
+    std::vector<char> asleep_;                     ///< of each batch: at rest since it is here
 };
 
 extern template class Assembly<2>;

@@ -33,6 +33,7 @@ template <int Dim> typename Assembly<Dim>::Dissipation Assembly<Dim>::dissipated
     for (const Dissipation& of_batch : dissipated_) {
         sum.viscous += of_batch.viscous;
         sum.plastic += of_batch.plastic;
+        if (damping > 0) sum.numerical += of_batch.numerical;
     }
     return sum;
 }

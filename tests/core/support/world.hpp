@@ -25,6 +25,7 @@ public:
     int threads = omp_get_max_threads();
     std::optional<NewtonImpact<2>> impact;
     std::optional<Adhesion<2>> adhesion;
+    double damping = 0;     ///< of local_damping.hpp
     std::vector<int> order; ///< in which the assembly takes the grains; none: as they are
 
     // of the last step
@@ -105,6 +106,7 @@ private:
         for (auto& grain : grains)
             if (adhesion) grain.surface.ahead = adhesion->range;
         assemble(members);
+        assembly_->damping = damping;
     }
 
     void detect()
