@@ -19,9 +19,10 @@ void SoftImplicitIntegrator::advance(double dt)
     loads_.gather(*scene, gravity, threads());
     refuseUnknownGrains();
     meetThemselves();
-    pairs_.collect(*scene, touchingPairs());
+    HandedPairs pairs = handedPairs();
+    pairs_.collect(*scene, std::move(pairs.soft));
     refuseUnknownPairs();
-    if (const auto rigid = rigidPairs(); !rigid.empty())
+    if (const auto& rigid = pairs.rigid; !rigid.empty())
         throw std::runtime_error(
             "bodies #" + std::to_string(rigid[0].id1) + " and #" + std::to_string(rigid[0].id2)
             + ": SoftImplicitIntegrator knows no contacts between rigid bodies; take SoftIntegrator, or "
@@ -109,7 +110,7 @@ void SoftImplicitIntegrator::search()
     }
     Problems::raise();
     meetThemselves();
-    pairs_.collect(*scene, touchingPairs(), true);
+    pairs_.collect(*scene, handedPairs().soft, true);
     refuseUnknownPairs();
 }
 

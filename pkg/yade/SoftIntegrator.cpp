@@ -84,8 +84,9 @@ void SoftIntegrator::advance(double dt)
     const double kick = lastStep > 0 ? (lastStep + dt) / 2 : dt;
 
     meetThemselves();
-    pairs_.collect(*scene, touchingPairs());
-    pairs_.rigid.collect(rigidPairs());
+    HandedPairs pairs = handedPairs();
+    pairs_.collect(*scene, std::move(pairs.soft));
+    pairs_.rigid.collect(std::move(pairs.rigid));
     pairs_.wantSurfaces();
     watch.stage(1);
 
@@ -277,27 +278,21 @@ void SoftIntegrator::takeOver()
         taken = true;
     }
     if (!taken) return;
-    touchingPairs(); // of interactions that are new: all come again
-    rigidPairs();
+    handedPairs(); // of interactions that are new: all come again
     for (InteractionLoop* loop : loops)
         loop->action();
     Problems::raise();
 }
 
-/// What the Law2 functors were called for in this step.
-std::vector<TouchingPair> SoftIntegrator::touchingPairs() const
+SoftIntegrator::HandedPairs SoftIntegrator::handedPairs() const
 {
-    std::vector<TouchingPair> pairs;
-    eachFunctor<Law2_SoftGeom_SoftPhys_ContactDynamics>(*scene, &InteractionLoop::lawDispatcher,
-                                                        [&](auto& law) { law.handOver(scene->iter, pairs); });
-    return pairs;
-}
-
-std::vector<RigidPair> SoftIntegrator::rigidPairs() const
-{
-    std::vector<RigidPair> pairs;
-    eachFunctor<Law2_ScGeom_FrictPhys_ContactDynamics>(*scene, &InteractionLoop::lawDispatcher,
-                                                       [&](auto& law) { law.handOver(scene->iter, pairs); });
+    HandedPairs pairs;
+    eachFunctor<LawFunctor>(*scene, &InteractionLoop::lawDispatcher, [&](LawFunctor& functor) {
+        if (auto* soft = dynamic_cast<Law2_SoftGeom_SoftPhys_ContactDynamics*>(&functor))
+            soft->handOver(scene->iter, pairs.soft);
+        else if (auto* rigid = dynamic_cast<Law2_ScGeom_FrictPhys_ContactDynamics*>(&functor))
+            rigid->handOver(scene->iter, pairs.rigid);
+    });
     return pairs;
 }
 

@@ -109,8 +109,12 @@ protected:
     void refuseStrangersNowAndThen();
     void refuseCollapse() const;
     void refuseUndamped() const;
-    std::vector<TouchingPair> touchingPairs() const;
-    std::vector<RigidPair> rigidPairs() const;
+    /// What the Law2 functors were called for in this step.
+    struct HandedPairs {
+        std::vector<TouchingPair> soft;
+        std::vector<RigidPair> rigid;
+    };
+    HandedPairs handedPairs() const;
     void meetThemselves() const;
     void takeOver();
     virtual void trackEnergies();
