@@ -151,7 +151,11 @@ namespace {
 
 template <int Dim> bool points_are_of_second(const Surface<Dim>& first, const Surface<Dim>& second)
 {
-    return second.mobility > 0 && (shows_faces(first) || second.size < first.size);
+    const bool smaller = second.size < first.size;
+    if (first.mobility == 0 || second.mobility == 0) return second.mobility > 0 && (shows_faces(first) || smaller);
+    if (first.count == second.count) return smaller;                                // of one resolution
+    const double sparser = second.size * first.count / (first.size * second.count); // points of the second
+    return sparser < (smaller ? 4.0 / 3 : 3.0 / 4);
 }
 
 namespace {

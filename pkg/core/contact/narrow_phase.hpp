@@ -48,7 +48,7 @@ template <int Dim> bool is_folded(const Surface<Dim>& surface, bool may_meet_its
 template <int Dim> double bulge(const Surface<Dim>& surface);
 
 /// Whose points stand for the boundary where two bodies touch: of the smaller one, but of the grain where the other is a rigid
-/// polygon, which shows its faces, however thin it is.
+/// polygon, which shows its faces, however thin it is, and of the larger of two grains where its points are denser by a third.
 template <int Dim> bool points_are_of_second(const Surface<Dim>& first, const Surface<Dim>& second);
 
 template <int Dim> class PairContacts {
