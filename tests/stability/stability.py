@@ -27,7 +27,7 @@ SAMPLES = 25            # times in a phase at which energies and outlines are lo
 # and between these a quarter of it may enter (doc/theory.md, section 4)
 GROSS = 1 / 3
 # most penetration [R], energy missing [turnover], residual of the contact solver, iterations in a step
-LIMITS = {"explicit": (1e-2, 1e-2, 3e-2, 999), "updated": (1e-2, 2e-2, 3e-2, 999),
+LIMITS = {"explicit": (1e-2, 1e-2, 3e-2, 999), "updated": (1e-2, 1e-2, 3e-2, 999),
           "implicit": (1e-4, 2e-2, 1e-3, math.inf), "quasistatic": (1e-4, 2e-2, 1e-3, math.inf)}
 LEAST_TURNOVER = 1e-6   # [modulus x area of all grains], as a strain of 1e-3 gives: energies far below it are those of tolerances
 LONG = "--long" in sys.argv
