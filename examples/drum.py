@@ -14,7 +14,7 @@ from yade import O
 from yade.utils import facet
 from yade.wrapper import FrictMat, RotationEngine
 
-from softgrain import NeoHookeanMat, measures, options as opt, runs, softCloud, softEngines, summary
+from softgrain import measures, options as opt, runs, softCloud, softEngines, summary
 from softgrain.records import read_table
 from softgrain.runs import Run
 from softgrain.timed import Timed
@@ -34,12 +34,9 @@ def read_options():
     group.add_argument("--grains", type=opt.count, default=50, metavar="N", help="number of gel grains")
     group.add_argument("--radius", type=opt.positive, default=25e-3, metavar="M", help="of the drum [m]")
     group.add_argument("--spin", type=opt.positive, default=6.0, metavar="RAD/S", help="of the drum [rad/s]")
-    group.add_argument("--friction", type=opt.not_negative, default=0.5, metavar="MU", help="of all contacts")
-    group.add_argument("--shear-modulus", type=opt.positive, default=2e4, metavar="PA", help="of the gel [Pa]")
-    group.add_argument("--viscosity", type=opt.not_negative, default=0.5, metavar="PAS", help="of the gel [Pa s]")
+    opt.add_gel(group, viscosity=0.5, friction=0.5, points=60)
     group.add_argument("--settle", type=opt.positive, default=0.15, metavar="S", help="time the grains settle for [s]")
     group.add_argument("--duration", type=opt.positive, default=1.0, metavar="S", help="time the drum turns for [s]")
-    group.add_argument("--points", type=opt.count, default=60, metavar="N", help="material points of a grain")
     group.add_argument("--seed", type=opt.seed, default=1, metavar="N", help="of the grains")
     opt.add_quick(group, "small and short:", QUICK)
     parser.add_management()
@@ -51,8 +48,7 @@ def read_options():
 def build(options):
     """Grains in the lower part of the drum, its facets, and the engine that turns them, still at rest."""
     radius, angle = options.radius, math.atan(options.friction)
-    O.materials.append(NeoHookeanMat(lambda_=50 * options.shear_modulus, mu=options.shear_modulus, density=1000,
-                                     viscosity=options.viscosity, frictionAngle=angle, label="gel"))
+    O.materials.append(opt.make_gel(options))
     O.materials.append(FrictMat(frictionAngle=angle, label="drum"))
     width = 1.3 * radius
     grains, _ = softCloud(width, options.grains, DIAMETERS, FILL, "gel", points=options.points, seed=options.seed)
@@ -93,9 +89,7 @@ class Drum:
 
     def missing(self):
         """Energy that came from nowhere since the start [J/m]."""
-        soft = self.soft
-        return (soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-                + soft.viscousDissipation - soft.externalWork)
+        return measures.heldOrLost(self.soft) - self.soft.externalWork
 
     def row(self, length):
         soft, memory, (x, y) = self.soft, self.memory, self.centre()

@@ -14,7 +14,7 @@ from yade import O
 from yade.utils import box, facet
 from yade.wrapper import FrictMat
 
-from softgrain import NeoHookeanMat, arrays, measures, options as opt, runs, softDisc, softEngines, summary
+from softgrain import arrays, measures, options as opt, runs, softDisc, softEngines, summary
 from softgrain.checks import InputError
 from softgrain.records import read_table
 from softgrain.runs import Run
@@ -36,10 +36,7 @@ def read_options():
     group.add_argument("--opening", type=opt.positive, default=0.7, metavar="SHARE", help="width of the channel [diameter of the grain]")
     group.add_argument("--slope", type=opt.positive, default=60.0, metavar="DEG", help="of the funnel against the horizontal")
     group.add_argument("--speed", type=opt.positive, default=0.2, metavar="V", help="of the box that pushes [m/s]")
-    group.add_argument("--friction", type=opt.not_negative, default=0.2, metavar="MU", help="of all contacts")
-    group.add_argument("--shear-modulus", type=opt.positive, default=2e4, metavar="PA", help="of the grain [Pa]")
-    group.add_argument("--viscosity", type=opt.not_negative, default=1.0, metavar="PAS", help="of the grain [Pa s]")
-    group.add_argument("--points", type=opt.count, default=276, metavar="N", help="material points of the grain")
+    opt.add_gel(group, viscosity=1.0, friction=0.2, points=276)
     opt.add_quick(group, "coarse and fast:", QUICK)
     parser.add_management()
     options = parser.read()
@@ -55,8 +52,7 @@ def build(options):
     """The grain on the slopes above the channel, the funnel, and the box above the grain, which comes last."""
     radius, half, slope = options.radius, options.opening * options.radius, math.radians(options.slope)
     angle = math.atan(options.friction)
-    O.materials.append(NeoHookeanMat(lambda_=50 * options.shear_modulus, mu=options.shear_modulus, density=1000,
-                                     viscosity=options.viscosity, frictionAngle=angle, label="gel"))
+    O.materials.append(opt.make_gel(options))
     O.materials.append(FrictMat(frictionAngle=angle, label="steel"))
     # the centre from which both slopes, whose lower ends are the corners (half, 0), are a radius away
     centre = 1.001 * radius / math.cos(slope) - half * math.tan(slope)
@@ -88,9 +84,7 @@ class Passage:
 
     def missing(self):
         """Energy that came from nowhere since the start [J/m]."""
-        soft = self.soft
-        return (soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-                + soft.viscousDissipation - soft.externalWork)
+        return measures.heldOrLost(self.soft) - self.soft.externalWork
 
     def row(self, length):
         soft, memory, outline = self.soft, self.run.memory, arrays.outline(self.grain)

@@ -10,7 +10,7 @@ import math
 
 from yade import O
 
-from softgrain import (NeoHookeanMat, arrays, measures, options as opt, rigidDisc, runs, softBox, softCloud, softEngines,
+from softgrain import (arrays, measures, options as opt, rigidDisc, runs, softBox, softCloud, softEngines,
                        summary)
 from softgrain.records import read_table
 from softgrain.runs import Run
@@ -31,15 +31,12 @@ def read_options():
     group = parser.add_argument_group("the scene")
     group.add_argument("--grains", type=opt.count, default=70, metavar="N", help="number of gel grains")
     group.add_argument("--width", type=opt.positive, default=40e-3, metavar="M", help="of the box [m]")
-    group.add_argument("--shear-modulus", type=opt.positive, default=2e4, metavar="PA", help="of the gel [Pa]")
-    group.add_argument("--viscosity", type=opt.not_negative, default=0.5, metavar="PAS", help="of the gel [Pa s]")
-    group.add_argument("--friction", type=opt.not_negative, default=0.2, metavar="MU", help="of all contacts")
+    opt.add_gel(group, viscosity=0.5, friction=0.2, points=60)
     group.add_argument("--radius", type=opt.positive, default=4e-3, metavar="M", help="of the ball [m]")
     group.add_argument("--density", type=opt.positive, default=8000.0, metavar="KG/M3", help="of the ball [kg/m³]")
     group.add_argument("--height", type=opt.positive, default=0.05, metavar="M", help="of the fall [m]")
     group.add_argument("--settle", type=opt.positive, default=0.1, metavar="S", help="time the grains settle for [s]")
     group.add_argument("--duration", type=opt.positive, default=0.08, metavar="S", help="time from then on [s]")
-    group.add_argument("--points", type=opt.count, default=60, metavar="N", help="material points of a grain")
     group.add_argument("--seed", type=opt.seed, default=1, metavar="N", help="of the grains")
     opt.add_quick(group, "small and short:", QUICK)
     parser.add_management()
@@ -51,8 +48,7 @@ def read_options():
 def build(options):
     """Bodies and engines; the ball comes last and waits."""
     angle = math.atan(options.friction)
-    O.materials.append(NeoHookeanMat(lambda_=50 * options.shear_modulus, mu=options.shear_modulus, density=1000,
-                                     viscosity=options.viscosity, frictionAngle=angle, label="gel"))
+    O.materials.append(opt.make_gel(options))
     O.materials.append(FrictMat(frictionAngle=angle, label="walls"))
     O.materials.append(FrictMat(frictionAngle=angle, density=options.density, label="steel"))
     grains, height = softCloud(options.width, options.grains, DIAMETERS, FILL, "gel", points=options.points, seed=options.seed)
@@ -87,10 +83,8 @@ class Ball:
 
     def energy(self):
         """Of ball and grains, that of gravity and all that has been dissipated included [J/m]: it stays what it is."""
-        soft, state = self.soft, self.body.state
         height = sum(body.state.mass * body.state.pos[1] for body in [self.body, *measures.softBodies()])
-        return (soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-                + soft.viscousDissipation + kinetic(state) + GRAVITY * height)
+        return measures.heldOrLost(self.soft) + kinetic(self.body.state) + GRAVITY * height
 
     def row(self, length):
         state, soft = self.body.state, self.soft

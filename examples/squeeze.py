@@ -148,10 +148,7 @@ class Squeeze:
 
     def balance(self):
         """Energy that is missing, over the work of the walls."""
-        soft = self.soft
-        stored = soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-        stored += soft.viscousDissipation + soft.plasticDissipation + getattr(soft, "numericalDissipation", 0.0)
-        return (stored - soft.externalWork) / soft.externalWork
+        return (measures.heldOrLost(self.soft) - self.soft.externalWork) / self.soft.externalWork
 
 
 def check(squeeze, table, options):

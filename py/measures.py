@@ -17,6 +17,14 @@ def softIntegrator():
     raise InputError("O.engines holds no SoftIntegrator: set O.engines = softEngines().")
 
 
+def heldOrLost(soft):
+    """What soft grains hold, elastic and kinetic, and what they have lost since the start, by a SoftIntegrator [J/m]: its
+    externalWork, if they started at rest and none is missing. adhesionWork stands apart."""
+    return (soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
+            + soft.viscousDissipation + soft.plasticDissipation + soft.dampingDissipation
+            + getattr(soft, "numericalDissipation", 0.0))
+
+
 def softBodies():
     """The bodies of O.bodies that are soft grains."""
     return [body for body in O.bodies if isinstance(body.shape, wrapper.SoftGrain)]

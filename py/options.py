@@ -163,6 +163,20 @@ def make_material(options):
     return wrapper.MooneyRivlinMat(c1=options.c1, c2=options.c2, c=options.c, **common)
 
 
+def add_gel(group, viscosity, friction, points):
+    """The options of soft grains of gel, with their defaults."""
+    group.add_argument("--shear-modulus", type=positive, default=2e4, metavar="PA", help="of the gel [Pa]")
+    group.add_argument("--viscosity", type=not_negative, default=viscosity, metavar="PAS", help="of the gel [Pa s]")
+    group.add_argument("--friction", type=not_negative, default=friction, metavar="MU", help="of all contacts")
+    group.add_argument("--points", type=count, default=points, metavar="N", help="material points of a grain")
+
+
+def make_gel(options):
+    """The material that options of add_gel describe, labelled "gel"."""
+    return wrapper.NeoHookeanMat(lambda_=50 * options.shear_modulus, mu=options.shear_modulus, density=1000,
+                                 viscosity=options.viscosity, frictionAngle=math.atan(options.friction), label="gel")
+
+
 def add_method(parser):
     """The options of time integration, resolution and solver."""
     group = parser.add_argument_group("the method")

@@ -61,13 +61,6 @@ def run_tests(*tests):
     sys.exit(1 if checks.failed else 0)
 
 
-def held_or_lost(soft):
-    """What soft grains hold, and what they have lost since the start [J/m]: the external work, if none is missing."""
-    return (soft.kineticEnergy() + soft.elasticEnergy() + soft.frictionDissipation + soft.contactDissipation
-            + soft.viscousDissipation + soft.plasticDissipation + soft.dampingDissipation
-            + getattr(soft, "numericalDissipation", 0.0))
-
-
 class Folder:
     """A temporary folder: with Folder() as path."""
 

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that cannot be computed stop with one sentence that names object, value and fix: bad materials and states,
-incomplete engine lists, time steps over the limit, overlaps, files of another version. Never a crash, never silence."""
+incomplete engine lists, time steps over the limit, overlaps. Never a crash, never silence."""
 import math
 import os
-import re
 import sys
 
 from yade import O
@@ -15,7 +14,7 @@ from yade.wrapper import (Body, Bo1_Sphere_Aabb, Bo1_Tetra_Aabb, Bo1_Wall_Aabb, 
 from yade.minieigenHP import Quaternion
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, is_sentence, run_tests  # noqa: E402
+from scene_testing import is_sentence, run_tests  # noqa: E402
 from softgrain import (Bo1_SoftGrain_Aabb, Ig2_Box_SoftGrain_SoftGeom, Ig2_SoftGrain_SoftGrain_SoftGeom,  # noqa: E402
                        Ig2_Wall_SoftGrain_SoftGeom, Ip2_FrictMat_SoftMat_SoftPhys, Ip2_SoftMat_SoftMat_SoftPhys,
                        Law2_SoftGeom_SoftPhys_ContactDynamics, MooneyRivlinMat, NeoHookeanMat, PlasticMat, SoftGrain,
@@ -490,32 +489,5 @@ def a_stepper_keeps_up_with_an_impact(checks):
     checks.that("the run goes on", O.iter == 200)
 
 
-# -------------------------------------------------------------------------------------------- files of another version
-
-def saved_by_another_version(checks):
-    with Folder() as folder:
-        fresh_scene()
-        grains()
-        O.engines = softEngines()
-        for _ in range(60):
-            O.step()
-        path = os.path.join(folder, "scene.xml")
-        O.save(path, quiet=True)
-        with open(path, encoding="utf-8") as file:
-            text = file.read()
-        for what, pattern, replacement, words in (
-                ("another format", "<format>5</format>", "<format>6</format>", ["#0", "format 6", "version"]),
-                ("another number of points", "<points>60</points>", "<points>124</points>", ["#0", "version"])):
-            changed, count = re.subn(pattern, replacement, text)
-            checks.that(f"{what}: the file is changed", count == 2, count)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(changed)
-            O.reset()
-            O.load(path, quiet=True)
-            for attempt in range(2):
-                checks.raises(f"{what}, attempt {attempt}", (RuntimeError, ValueError), words, O.step)
-        O.reset()
-
-
 run_tests(materials_and_states, incomplete_engine_lists, a_second_attempt_is_refused_too, other_bodies_overlaps_and_steps,
-          a_stepper_keeps_up_with_an_impact, saved_by_another_version)
+          a_stepper_keeps_up_with_an_impact)

@@ -14,7 +14,7 @@ from yade.utils import wall
 from yade.wrapper import ForceEngine, FrictMat, PyRunner, RotationEngine, TorqueEngine, TranslationEngine
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, held_or_lost, run_tests  # noqa: E402
+from scene_testing import Folder, run_tests  # noqa: E402
 from softgrain import MooneyRivlinMat, NeoHookeanMat, arrays, measures, softDisc, softEngines  # noqa: E402
 
 RADIUS = 1e-3
@@ -48,7 +48,7 @@ def before_newton(*more):
 def balance():
     """Energy that came from nowhere [J/m]."""
     soft = measures.softIntegrator()
-    return held_or_lost(soft) - soft.externalWork
+    return measures.heldOrLost(soft) - soft.externalWork
 
 
 def position(checks):

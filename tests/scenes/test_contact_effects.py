@@ -10,7 +10,7 @@ from yade.utils import wall
 from yade.wrapper import FrictMat, InteractionLoop, MatchMaker
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, held_or_lost, run_tests  # noqa: E402
+from scene_testing import Folder, run_tests  # noqa: E402
 from softgrain import InputError, NeoHookeanMat, measures, rigidDisc, softDisc, softEngines, softPolygon  # noqa: E402
 
 SIDE = 1e-3
@@ -81,7 +81,7 @@ def a_block_comes_off_at_the_tension_times_its_side(checks):
     soft = measures.softIntegrator()
     expected = PULL[0] * PULL[1] * SIDE
     checks.close_to("work of separation", soft.adhesionWork / expected, 1, 0.05)
-    checks.close_to("energy", (held_or_lost(soft) + soft.adhesionWork - soft.externalWork) / expected, 0, 0.02)
+    checks.close_to("energy", (measures.heldOrLost(soft) + soft.adhesionWork - soft.externalWork) / expected, 0, 0.02)
     tracked = sum(O.energy[name] for name in O.energy.keys() if name.startswith("soft"))
     checks.close_to("tracked energies", tracked / expected, 0, 0.02)
 
@@ -119,7 +119,7 @@ def a_stone_sticks_to_a_grain(checks):
     checks.that("they stick", soft.contactCount > 0 and (states[0].pos - states[1].pos).norm() < 1.605e-3,
                 (soft.contactCount, (states[0].pos - states[1].pos).norm(), soft.adhesionWork))
     checks.close_to("without friction only feet beside the radii turn it", states[1].angVel[2], 5, 0.2)
-    energy = (held_or_lost(soft) + soft.adhesionWork + kinetic() - first) / -soft.adhesionWork
+    energy = (measures.heldOrLost(soft) + soft.adhesionWork + kinetic() - first) / -soft.adhesionWork
     checks.close_to("energy over the work of adhesion", energy, 0, 0.01)
 
 

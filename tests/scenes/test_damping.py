@@ -8,7 +8,7 @@ from yade import O
 from yade.wrapper import FrictMat
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, held_or_lost, run_tests  # noqa: E402
+from scene_testing import Folder, run_tests  # noqa: E402
 from softgrain import NeoHookeanMat, arrays, measures, softBox, softCloud, softDisc, softEngines  # noqa: E402
 
 WIDTH = 5e-3
@@ -54,7 +54,7 @@ def relaxes(checks):
     checks.that("damped it comes to rest", damped < 1e-6 * undamped, (undamped, damped))
     bottom, top = (abs(O.forces.f(walls[k])[1]) for k in (2, 3))
     checks.close_to("walls in balance", bottom, top, 0.15 * top)  # sides carry the rest by friction
-    missing = held_or_lost(soft) / soft.externalWork - 1
+    missing = measures.heldOrLost(soft) / soft.externalWork - 1
     checks.that("energy balance", abs(missing) < 2e-3, missing)
     energy = dict(O.energy.items())
     checks.close_to("O.energy", energy["softDamping"], soft.dampingDissipation, 1e-12 * soft.externalWork)

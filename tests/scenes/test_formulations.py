@@ -8,7 +8,7 @@ from yade import O
 from yade.wrapper import FrictMat
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, held_or_lost, run_example, run_tests, said  # noqa: E402
+from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
 from softgrain import NeoHookeanMat, arrays, measures, softBox, softDisc, softEngines  # noqa: E402
 from softgrain.checks import InputError  # noqa: E402
 from softgrain.records import read_table  # noqa: E402
@@ -54,7 +54,7 @@ def both_forms_agree(checks):
             if step >= steps - 500:
                 force += O.forces.f(top)[1] / 500
         soft = measures.softIntegrator()
-        missing = held_or_lost(soft) / soft.externalWork - 1
+        missing = measures.heldOrLost(soft) / soft.externalWork - 1
         checks.that(f"{name}: energy balance", abs(missing) < 5e-3, missing)
         found[name] = [force, soft.elasticEnergy(), soft.solidArea(), O.bodies[0].state.pos[1]]
     for name in ("updated", "mixed"):
@@ -151,7 +151,7 @@ def implicit_steps(checks):
     top = column("updated", "total", integrator="implicit", dt=2e-7)
     run(600)
     soft = measures.softIntegrator()
-    missing = held_or_lost(soft) / soft.externalWork - 1
+    missing = measures.heldOrLost(soft) / soft.externalWork - 1
     checks.that("mixed forms: energy balance", abs(missing) < 5e-3, missing)
     checks.that("mixed forms: pressed", O.forces.f(top)[1] > 0, O.forces.f(top))
 

@@ -3,12 +3,13 @@
 (yade-batch: test_batch.py.)"""
 import builtins
 import os
+import re
 import sys
 import time
 
 import numpy
 from yade import O, plot
-from yade.utils import sphere
+from yade.utils import sphere, wall
 from yade.wrapper import FrictMat, PyRunner
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
@@ -332,7 +333,35 @@ def bodies_move_as_bodies(checks):
     checks.close_to("mass of the disc", disc.mass, 1000 * numpy.pi * 1e-6, 1e-12)
 
 
+def saved_by_another_version(checks):
+    with Folder() as folder:
+        O.reset()
+        gel = O.materials.append(NeoHookeanMat())
+        O.bodies.append([softDisc((0, 0), 1e-3, gel, 60, velocity=(0, -3, 0)), softDisc((2.05e-3, 0), 1e-3, gel, 60, velocity=(-1, 0, 0)),
+                         wall(-1.01e-3, axis=1, sense=1, material=O.materials.append(FrictMat()))])
+        O.engines = softEngines()
+        for _ in range(60):
+            O.step()
+        path = os.path.join(folder, "scene.xml")
+        O.save(path, quiet=True)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        for what, pattern, replacement, words in (
+                ("another format", "<format>5</format>", "<format>6</format>", ["#0", "format 6", "version"]),
+                ("another number of points", "<points>60</points>", "<points>124</points>", ["#0", "version"])):
+            changed, count = re.subn(pattern, replacement, text)
+            checks.that(f"{what}: the file is changed", count == 2, count)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(changed)
+            O.reset()
+            O.load(path, quiet=True)
+            for attempt in range(2):
+                checks.raises(f"{what}, attempt {attempt}", (RuntimeError, ValueError), words, O.step)
+        O.reset()
+
+
 run_tests(continued_equals_uninterrupted, reload_begins_anew, saved_in_memory, a_dense_scene_can_be_loaded,
           grains_can_be_erased_and_added, a_body_of_no_other_owner_is_erased, bodies_come_and_go_while_it_runs,
           scenes_do_not_disturb_each_other, run_in_the_background_equals_steps,
-          an_error_in_the_background_is_kept_for_wait, sub_steps, plots, energies_are_tracked, engines_of_yade_work_along, bodies_move_as_bodies)
+          an_error_in_the_background_is_kept_for_wait, sub_steps, plots, energies_are_tracked, engines_of_yade_work_along, bodies_move_as_bodies,
+          saved_by_another_version)

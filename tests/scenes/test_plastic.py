@@ -12,7 +12,7 @@ from yade.utils import wall
 from yade.wrapper import FrictMat
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, held_or_lost, run_example, run_tests, said  # noqa: E402
+from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
 from softgrain import NeoHookeanMat, PlasticMat, arrays, measures, softDisc, softEngines, softPolygon  # noqa: E402
 from softgrain.records import read_table  # noqa: E402
 
@@ -115,7 +115,7 @@ def block_against_the_closed_form(checks):
     checks.that("what is dissipated follows from the plastic strain",
                 abs(soft.plasticDissipation / sum(
                     arrays.pointVolumes(body) * (YIELD * strains + HARDENING / 2 * strains**2)) - 1) < 1e-9)
-    missing = held_or_lost(soft) / soft.externalWork - 1 - soft.kineticEnergy() / soft.externalWork
+    missing = measures.heldOrLost(soft) / soft.externalWork - 1 - soft.kineticEnergy() / soft.externalWork
     checks.that("energy balance", abs(missing) < 1e-2, missing)
 
 
@@ -125,7 +125,7 @@ def a_disc_stays_flat(checks):
     while O.bodies[walls[1]].state.pos[1] > 0.8 * SIDE:
         run(20)
     soft, body = measures.softIntegrator(), O.bodies[0]
-    missing = held_or_lost(soft) / soft.externalWork - 1
+    missing = measures.heldOrLost(soft) / soft.externalWork - 1
     checks.that("explicit: energy balance", abs(missing) < 3e-3, missing)
     checks.that("most of the work is dissipated", soft.plasticDissipation > 0.5 * soft.externalWork)
     energy = dict(O.energy.items())

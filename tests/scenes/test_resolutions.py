@@ -10,7 +10,7 @@ from yade.utils import wall
 from yade.wrapper import FrictMat
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import held_or_lost, run_tests  # noqa: E402
+from scene_testing import run_tests  # noqa: E402
 from softgrain import NeoHookeanMat, arrays, measures, softDisc, softEngines  # noqa: E402
 
 RADIUS, FINE = 1e-3, 400
@@ -48,7 +48,7 @@ def a_column_of_mixed_discs(checks):
             checks.close_to(f"{name}, {points}: force", force, expected, bound * expected)
             checks.close_to(f"{name}, {points}: heights", abs(numpy.array(found) - heights).max(), 0, 0.02)
             soft = measures.softIntegrator()
-            missing = held_or_lost(soft) / soft.externalWork - 1
+            missing = measures.heldOrLost(soft) / soft.externalWork - 1
             checks.that(f"{name}, {points}: energy balance", abs(missing) < 1e-2, missing)
 
 

@@ -10,7 +10,7 @@ from yade.utils import facet, sphere, wall
 from yade.wrapper import FrictMat
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import held_or_lost, run_tests  # noqa: E402
+from scene_testing import run_tests  # noqa: E402
 from softgrain import NeoHookeanMat, measures, softDisc, softEngines  # noqa: E402
 
 R = 1e-3
@@ -48,7 +48,7 @@ def press(low, high, squeeze=0.1, speed=0.5, **engines):
 
 def balance():
     soft = measures.softIntegrator()
-    return held_or_lost(soft) / soft.externalWork - 1
+    return measures.heldOrLost(soft) / soft.externalWork - 1
 
 
 def plates(of_facets):

@@ -10,7 +10,7 @@ from yade.utils import wall
 from yade.wrapper import FrictMat
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import Folder, held_or_lost, run_example, run_tests, said  # noqa: E402
+from scene_testing import Folder, run_example, run_tests, said  # noqa: E402
 from softgrain import NeoHookeanMat, arrays, measures, softDisc, softEngines  # noqa: E402
 from softgrain.records import read_table  # noqa: E402
 
@@ -42,12 +42,12 @@ def free_vibration(checks):
     body = rebound(0.2)
     O.trackEnergy = True
     O.step()
-    start = held_or_lost(measures.softIntegrator())
+    start = measures.heldOrLost(measures.softIntegrator())
     while body.state.pos[1] < 0.1 * RADIUS:
         run(50)
     soft = measures.softIntegrator()
     before, lost = vibration(body), soft.viscousDissipation
-    missing = held_or_lost(soft) / start - 1
+    missing = measures.heldOrLost(soft) / start - 1
     checks.that("energy balance after the rebound", abs(missing) < 5e-3, missing)
     checks.that("it vibrates", before > 0.02 * start, before / start)
     while vibration(body) > 0.1 * before and O.time < 0.1:

@@ -160,10 +160,8 @@ class Run:
     def _balance(self):
         """Energy that came from nowhere [J/m]; keeps the largest energy that was turned over."""
         soft = self.soft
-        stored, dissipated = self.stored(), soft.frictionDissipation + soft.contactDissipation
-        dissipated += getattr(soft, "numericalDissipation", 0.0)
-        self.turnover = max(self.turnover, stored, abs(soft.externalWork))
-        return stored + dissipated - soft.externalWork
+        self.turnover = max(self.turnover, self.stored(), abs(soft.externalWork))
+        return measures.heldOrLost(soft) - soft.externalWork
 
     def _look(self):
         balance = self._balance() - self.start
