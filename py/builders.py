@@ -160,7 +160,8 @@ def softBox(width, height, material=-1):
 
 def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSweeps=1000, verletDist=None,
                 friction=None, wallFriction=None, more=(), accuracy=None, integrator="explicit", theta=1.0,
-                quasistatic=False, functors=(), restitution=None, adhesion=None, reversible=True, damping=0.0):
+                quasistatic=False, functors=(), restitution=None, adhesion=None, reversible=True, damping=0.0,
+                rigidBelow=0.0):
     """The engine list of a scene with soft grains: O.engines = softEngines(). Append the bodies before.
 
     gravity       [m/s²]
@@ -176,6 +177,8 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     reversible    of adhesion; False: surfaces that have come apart attract each other no more
                   Each number of restitution and adhesion may be a MatchMaker of materials, that says it pair by pair
     damping       numerical, of the grains, for relaxation: see SoftIntegrator.damping (explicit alone)
+    rigidBelow    grains that nothing is near to move as rigid bodies once stresses are below this share of their shear modulus:
+                  see SoftIntegrator.rigidBelow (explicit alone)
     more          engines to append (recorders, PyRunners)
     accuracy      as of softDisc: chooses safety and tolerance, which may not be given too, nor dt of explicit steps
     functors      of rigid bodies among each other: rigidContacts(), or Ig2, Ip2 and Law2 of YADE's laws, which the time step has
@@ -195,15 +198,12 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     if not 0.5 <= theta <= 1:
         raise InputError(f"softEngines: theta is {theta:g}: give 0.5 to 1.")
     effects = {**_restitution(restitution), **_adhesion(adhesion, reversible)}
-    if implicit and effects:
-        raise InputError(f"softEngines: {'restitution' if restitution is not None else 'adhesion'} is not known to implicit "
-                         "steps: leave it out, or give integrator='explicit'.")
-    damping = not_negative("softEngines: damping", damping)
-    if damping >= 1:
-        raise InputError(f"softEngines: damping is {damping:g}: give less than 1; 0.2 is usual.")
-    if implicit and damping:
-        raise InputError("softEngines: damping is not known to implicit steps, and quasi-static ones need none: leave it out, or "
-                         "give integrator='explicit'.")
+    of_steps = {"damping": _below_one("damping", damping, 0.2), "rigidBelow": _below_one("rigidBelow", rigidBelow, 1e-3)}
+    if implicit:
+        for name, value in {"restitution": restitution is not None, "adhesion": adhesion is not None, **of_steps}.items():
+            if value:
+                raise InputError(f"softEngines: {name} is not known to implicit steps: leave it out, or give "
+                                 "integrator='explicit'.")
     given = {"dt": None if implicit else dt, "safety": safety, "tolerance": tolerance}
     presets.refuse_both("softEngines", accuracy, [name for name, value in given.items() if value is not None])
     preset = presets.settings("softEngines", accuracy) if accuracy is not None else {}
@@ -234,7 +234,7 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
                                                quasistatic=bool(quasistatic))
     else:
         mover = wrapper.SoftIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, maxSweeps=maxSweeps,
-                                       damping=damping)
+                                       **of_steps)
     return [
         wrapper.ForceResetter(),
         # with targetInterv the bound of a body at rest has no margin, and each one that starts to move costs a sort
@@ -253,6 +253,14 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         mover,
         *more,
     ]
+
+
+def _below_one(name, value, usual):
+    """A share from 0 to less than 1, or InputError."""
+    value = not_negative(f"softEngines: {name}", value)
+    if value >= 1:
+        raise InputError(f"softEngines: {name} is {value:g}: give less than 1; {usual:g} is usual.")
+    return value
 
 
 def rigidContacts(friction=None):

@@ -163,6 +163,7 @@ void SoftImplicitIntegrator::requireSaneAttributes() const
                                      + " has to " + range + ".");
     };
     demand(damping == 0, "damping", damping, "be 0: implicit steps do not know it, and quasi-static ones need none");
+    demand(rigidBelow == 0, "rigidBelow", rigidBelow, "be 0: implicit steps do not know grains that move as rigid bodies");
     demand(theta >= 0.5 && theta <= 1, "theta", theta, "lie between 0.5 and 1");
     demand(regularisation > 0 && std::isfinite(regularisation), "regularisation", regularisation, "be positive and finite");
     demand(hold > 0 && hold <= 1, "hold", hold, "lie above 0 and not above 1");

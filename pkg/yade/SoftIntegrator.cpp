@@ -93,6 +93,7 @@ void SoftIntegrator::advance(double dt)
     loads_.gather(*scene, gravity, threads());
     if (damping > 0) refuseUndamped();
     assembly_->damping = damping;
+    assembly_->rigid_below = rigidBelow;
     assembly_->predict(kick, gravity.head<2>(), threads());
     watch.stage(0);
 
@@ -131,6 +132,7 @@ void SoftIntegrator::advance(double dt)
         settle(soft_.of(grain.id), dt);
     };
     assembly_->correct(dt, threads(), hold, finish);
+    rigidCount = assembly_->flying();
     lastStep = dt;
     if (std::exchange(fresh_, false))
         for (SoftState* state : soft_.states)

@@ -53,6 +53,13 @@ public:
                      "Share of a penetration that the contact law takes back in one step [-]. Penetrations are errors of the discrete surfaces, of "
                      "about 1e-4 radii; taken back at once (1) they would feed energy in."))(
                     (Real, damping, 0, , "Numerical damping for relaxation, 0 (none) to below 1 [-]: Cundall's, as NewtonIntegrator.damping for rigid bodies, on each grain as a whole (along its motion, not axis by axis) and on its nodes relative to that. Gravity is damped too, as by default there; flight without forces is not. Explicit steps and total-Lagrangian grains without blockedDOFs."))(
+                    (Real,
+                     rigidBelow,
+                     0,
+                     ,
+                     "Grains that nothing is near to and whose energy of deformation and vibration is no more than that of a shear by this share of "
+                     "their shear modulus move as rigid bodies until something comes near [-]; dampingDissipation has what their vibration held. 0: "
+                     "only undeformed grains that translate or rest, for which that is exact. Explicit steps and total-Lagrangian grains without blockedDOFs."))(
                     (int, maxSweeps, 1000, , "Most sweeps of the contact solver in a step [-]."))(
                     (int, checkInterval, 50, , "Steps between two evaluations of the stable time step [-]."))(
                     (Real, criticalStep, NaN, Attr::readonly, "Largest stable time step at its last evaluation [s]."))(
@@ -62,11 +69,12 @@ public:
                     (Real, contactDissipation, 0, Attr::readonly, "Energy dissipated by normal impulses since the start [J/m]."))(
                     (Real, plasticDissipation, 0, Attr::readonly, "Energy dissipated by plastic flow in the grains since the start, the work of hardening included [J/m]."))(
                     (Real, viscousDissipation, 0, Attr::readonly, "Energy dissipated by the viscosity of the grains since the start [J/m]."))(
-                    (Real, dampingDissipation, 0, Attr::readonly, "Energy dissipated by damping in the grains since the start [J/m]."))(
+                    (Real, dampingDissipation, 0, Attr::readonly, "Energy dissipated by damping, and by rigidBelow, in the grains since the start [J/m]."))(
                     (Real, adhesionWork, 0, Attr::readonly, "Work against adhesion since the start [J/m]: stored where it is reversible."))(
                     (int, iterations, 0, Attr::readonly, "Sweeps of the contact solver in the last step [-]."))(
                     (long, totalIterations, 0, Attr::readonly, "Sweeps of the contact solver since the start [-]."))(
                     (Real, contactIterations, 0, Attr::readonly, "Local contact problems solved since the start: contact points times sweeps [-]."))(
+                    (int, rigidCount, 0, Attr::readonly, "Grains that moved as rigid bodies in the last step, or rested undeformed [-]."))(
                     (int, contactCount, 0, Attr::readonly, "Contact points in the last step's contact problem [-]."))(
                     (vector<Real>,
                      stageSeconds,

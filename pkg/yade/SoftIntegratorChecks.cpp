@@ -62,6 +62,7 @@ void SoftIntegrator::requireSaneAttributes() const
     demand(recovery >= 0 && recovery <= 1, "recovery", recovery, "lie between 0 and 1");
     demand(checkInterval > 0, "checkInterval", checkInterval, "be 1 or more");
     demand(damping >= 0 && damping < 1, "damping", damping, "be 0 or more and less than 1");
+    demand(rigidBelow >= 0 && rigidBelow < 1, "rigidBelow", rigidBelow, "be 0 or more and less than 1");
     demand(gravity.allFinite() && gravity[2] == 0, "gravity z component", gravity[2],
            "be 0 and the others finite: grains stay in the xy-plane");
 }

@@ -47,6 +47,7 @@ void SoftLoads::gather(Load& load, SoftState& state, const Vector3r& gravity, co
     grain.acceleration = force.head<2>() / state.mass;
     grain.spin_acceleration = softgrain::rotation_rate(torque[2] / grain.motion.second_moment.trace());
     const auto held = state.held();
+    grain.surface.near |= held[0] || held[1] || held[2]; // what holds them gives impulses, as contacts do
     for (int d = 0; d < 2; ++d)
         if (held[d]) {
             load.on[d] = -state.contactLoad[d];

@@ -42,12 +42,14 @@ void SoftPairs::collect(const Scene& scene, std::vector<TouchingPair>&& touching
 void SoftPairs::wantSurfaces()
 {
     for (SoftState* state : soft_.states)
-        state->grain.surface.wanted = false;
+        state->grain.surface.wanted = state->grain.surface.near = false;
     for (const Pair& pair : pairs_) {
+        const bool near = !pair.geom->points().empty();
         for (SoftState* state : { pair.first, pair.second })
             if (state) {
                 state->grain.renew_positions();
                 state->grain.surface.wanted = true;
+                state->grain.surface.near |= near;
             }
     }
 }

@@ -5,6 +5,7 @@
 #include "SoftGrain.hpp"
 #include "SoftMat.hpp"
 
+#include "step/rigid_flight.hpp"
 #include "step/untangling.hpp"
 
 #include <core/Omega.hpp>
@@ -106,7 +107,6 @@ void SoftState::prepare(const Body& body)
                                        + std::to_string(currentFormat) + " and " + std::to_string(fresh.mesh->master_count)
                                        + " nodes, " + std::to_string(fresh.mesh->point_count())
                                        + " points; load it with the version that saved it.");
-        fresh.refresh();
         fresh.elastic_energy();
         fresh.surface.travel = travel;
         fresh.surface.ahead = ahead;
@@ -129,14 +129,19 @@ bool SoftState::takeSaved(softgrain::Grain<2>& fresh) const
     fresh.origin = origin;
     if (fresh.updated) {
         fresh.updated->place(*fresh.mesh, softgrain::Mat<2>::Identity());
-        return fresh.updated->unpack(*fresh.mesh, pointState);
+        if (!fresh.updated->unpack(*fresh.mesh, pointState)) return false;
+        fresh.refresh();
+        return true;
     }
     fresh.displacement = nodeDisplacement;
     fresh.velocity = nodeVelocity;
     fresh.memory = pointMemory;
     const size_t expected = 2 * size_t(fresh.mesh->master_count);
-    return nodeDisplacement.size() == expected && nodeVelocity.size() == expected
-        && pointMemory.size() == size_t(fresh.mesh->point_count()) * fresh.law->memory_count;
+    if (nodeDisplacement.size() != expected || nodeVelocity.size() != expected
+        || pointMemory.size() != size_t(fresh.mesh->point_count()) * fresh.law->memory_count)
+        return false;
+    fresh.refresh();
+    return softgrain::unpack_flight(flight, fresh);
 }
 
 bool SoftState::outdated(const Body& body) const
@@ -278,7 +283,9 @@ void SoftState::preSave(SoftState&)
     savedAngVel = angVel;
     if (touched()) heed();
     grain.pull();
-    nodeDisplacement = grain.displacement;
+    origin = grain.origin;
+    flight = softgrain::packed_flight(grain);
+    nodeDisplacement = grain.flight ? grain.flight->displacement : grain.displacement;
     nodeVelocity = grain.velocity;
     pointMemory = grain.memory;
     if (grain.updated) pointState = grain.updated->packed();
@@ -331,6 +338,7 @@ void SoftState::untangle(Real leastJ)
             + ": untangle() moves grid nodes, and the points of an updated-Lagrangian grain carry its "
               "deformation; give its shape the formulation 'total'.");
     if (touched()) heed();
+    mine.flight.reset();
     softgrain::untangle(mine, leastJ);
     mine.put();
     known_.reset(); // what holds the grain takes it in anew

@@ -13,7 +13,7 @@ namespace yade {
 
 class SoftState : public State {
 public:
-    static constexpr int currentFormat = 5; ///< of the saved fields
+    static constexpr int currentFormat = 6; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
     Real insideUntil = 0;    ///< travel of its surface up to which its bound surely holds it [m]
@@ -84,6 +84,7 @@ public:
             "Arrays come as bytes of float64; softgrain.points(body) and its like give them as numpy arrays.",
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
+                    (vector<Real>, flight, , Attr::hidden, "Motion of a grain that moves as a rigid body [SI units]; empty while it deforms."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(
                     (vector<Real>, pointMemory, , Attr::hidden, "What the points of a material with plasticity remember, [point][number]."))(
                     (vector<Real>,

@@ -86,6 +86,7 @@ private:
         for (Grain<2>& grain : grains_)
             all.push_back(&grain);
         Assembly<2> assembly(all);
+        assembly.land_all();
         double largest_u = 0, largest_v = 0;
         for (int k = 0; k < steps_; ++k) {
             const double t = k * dt_;

@@ -23,6 +23,7 @@ template <int Dim> struct Surface {
     std::vector<double> impulse;         ///< [point][Dim] [N s], what contact gave in this step
     bool struck = false;      ///< in this step: its impulses are not zero, or its nodes were given other velocities
     bool wanted = true;       ///< by contact, in every step; else steps renew box, speed and travel alone
+    bool near = true;         ///< contact points of it with others may touch in this step
     bool stale = false;       ///< positions are of an earlier step, Grain::renew_positions() brings them
     std::vector<char> corner; ///< [point], see BoundaryPoint
     Vec<Dim> min = Vec<Dim>::Zero(), max = Vec<Dim>::Zero(); ///< bounding box [m]
@@ -45,6 +46,8 @@ template <int Dim> struct Surface {
     Eigen::Map<const Vec<Dim>> x(int point) const { return Eigen::Map<const Vec<Dim>>(&position[size_t(Dim) * point]); }
     Eigen::Map<Vec<Dim>> v(int point) { return Eigen::Map<Vec<Dim>>(&velocity[size_t(Dim) * point]); }
 
+    /// Moves so far in a step that it could get past other bodies.
+    bool leaps(double dt) const { return speed * dt > 0.5 * size; }
     /// Of the fastest point.
     void measure_speed()
     {

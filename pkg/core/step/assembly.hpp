@@ -5,13 +5,14 @@
 //     v' = v* + contact impulses / m     (the caller fills the contact problem, a solver solves it)
 //     u' = u + dt v'                     correct
 //
-// Total-Lagrangian grains advance in batches; updated-Lagrangian ones (Grain::updated) one by one, on grids of their own.
-// A batch of grains at rest, undeformed, costs nothing until a load, an impulse or a velocity given by hand wakes it.
+// Total-Lagrangian grains advance in batches; updated-Lagrangian ones (Grain::updated) one by one, on grids of their own; those in
+// flight (Grain::flight) as rigid bodies: undeformed ones that translate or rest, from the start until something comes near
+// (Surface::near), and, where a tolerance is given, those that have come to that again.
 #pragma once
 
 #include "solver/contact_problem.hpp"
-#include "step/grain.hpp"
 #include "step/local_damping.hpp"
+#include "step/seating.hpp"
 
 #include <functional>
 
@@ -35,6 +36,11 @@ public:
 
     /// Of local_damping.hpp, 0 to 1: none to strong [-]. Total-Lagrangian grains alone know it.
     double damping = 0;
+    /// Of is_nearly_rigid: which total-Lagrangian grains take off [shear modulus]; 0: none but at the start.
+    double rigid_below = 0;
+    /// All grains deform from now on.
+    void land_all();
+    int flying() const { return int(flights_.size()); }
     /// Velocities of the surfaces without contact impulses. Throws SimulationError when a point has inverted.
     void predict(double dt, const Vec<Dim>& gravity, int threads);
     using Visit = std::function<void(Grain<Dim>&)>;
@@ -56,36 +62,37 @@ public:
     static void account(const ContactProblem<Dim>& problem, EnergyBalance& balance);
     /// Smallest stretches of the grains.
     void evaluate_stretch(int threads);
-    /// Elastic energies of the grains over the last step, 2 E(u - dt v / 2) - [E(u) + E(u - dt v)] / 2. Velocities stand
-    /// half a step behind displacements; with the kinetic energy this is what symplectic Euler conserves, exactly where
-    /// the force is linear (for one spring, k u_n u_(n+1) / 2), and it differs from E by O(dt^2).
+    /// Elastic energies of the grains, see energy_over_step.
     void evaluate_energy(double dt, int threads);
 
     const std::vector<Grain<Dim>*>& grains() const { return grains_; }
-    int batch_count() const { return int(batches_.size()); }
-    Batch<Dim>& batch(int b) { return *batches_[b]; }
-    const std::vector<Grain<Dim>*>& members(int b) const { return members_[b]; }
+    /// Of total-Lagrangian ones that deform.
+    Seating<Dim>& seats() { return seats_; }
     /// Updated-Lagrangian ones, which no batch holds.
     const std::vector<Grain<Dim>*>& updated() const { return updated_; }
 
 private:
-    void put_in_batches(std::vector<Grain<Dim>*> group);
-    bool is_at_rest(int b);
-    double viscous_loss(int b) const;
-    double advance_memory(int b);
+    void land(const std::function<bool(const Grain<Dim>&)>& is_to);
+    void take_off(double dt);
+    bool fly(double dt, int threads, const Visit& before, const Visit& after);
+    void push(int b);
+    void damp(int b);
+    void count_viscous_loss(int b);
+    void advance_memory(int b);
     bool observe(int b, double dt, const Visit& after);
     void hand_out(int b, std::vector<double> Surface<Dim>::*field);
     void report_unsound(const std::vector<char>& sound, double dt);
     void report(const std::vector<std::string>& complaints) const; ///< of the updated-Lagrangian grains
 
     std::vector<Grain<Dim>*> grains_;
-    std::vector<std::unique_ptr<Batch<Dim>>> batches_;
-    std::vector<std::vector<Grain<Dim>*>> members_; ///< of each batch
-    std::vector<Grain<Dim>*> updated_;
-    std::vector<double> least_J_;                  ///< of each batch, then of each updated-Lagrangian grain
-    std::vector<Dissipation> dissipated_;          ///< of each batch, in the last step
+    Seating<Dim> seats_;
+    std::vector<Grain<Dim>*> flights_, updated_;
+    std::vector<double> least_J_;                  ///< of each batch and each updated-Lagrangian grain
+    std::vector<Dissipation> dissipated_;          ///< of each grain, in the last step
     std::vector<LocalDamping<Dim>> local_damping_; ///< of each batch, where there is any
-    std::vector<char> asleep_;                     ///< of each batch: at rest since it is here
+    std::vector<char> ready_;                      ///< to take off, each grain
+    double kick_ = 0;                              ///< time step of the last predict [s]
+    Vec<Dim> gravity_ = Vec<Dim>::Zero();          ///< of the same
 };
 
 extern template class Assembly<2>;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/grain.hpp"
 
+#include "step/rigid_flight.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +39,7 @@ void Grain<Dim>::place(const Vec<Dim>& centre, const Mat<Dim>& rotation, const V
                        const Mat<Dim>& velocity_gradient)
 {
     batch = nullptr;
+    flight.reset();
     origin = centre;
     if (updated) {
         updated->place(*mesh, rotation);
@@ -123,6 +126,7 @@ template <int Dim> void Grain<Dim>::read_velocities(std::vector<double>& field) 
 
 template <int Dim> void Grain<Dim>::refresh_from_nodes()
 {
+    if (flight) write_nodes(*this);
     Batch<Dim> alone = this->alone();
     motion = motion_of(*this, alone.sums.data(), 1);
     surface.response = mesh.get();
@@ -143,6 +147,7 @@ template <int Dim> void Grain<Dim>::take_positions(const double* of_surface)
 template <int Dim> void Grain<Dim>::renew_positions()
 {
     if (!surface.stale) return;
+    if (flight) return write_positions(*this);
     pull();
     take_positions(alone().surface());
 }
@@ -156,6 +161,7 @@ template <int Dim> void Grain<Dim>::settle()
 
 template <int Dim> void Grain<Dim>::pull()
 {
+    if (flight) write_nodes(*this);
     if (!batch) return;
     for (size_t i = 0; i < displacement.size(); ++i) {
         displacement[i] = batch->displacement[i * batch->lanes + lane];
@@ -189,7 +195,10 @@ template <int Dim> void Grain<Dim>::translate(const Vec<Dim>& shift)
 template <int Dim> void Grain<Dim>::add_velocity(const Vec<Dim>& of_centre, const Mat<Dim>& gradient)
 {
     const Vec<Dim> centre = (motion.position - origin) / radius;
-    if (updated)
+    if (flight) {
+        motion.velocity += of_centre;
+        motion.angular_momentum[0] += gradient(1, 0) * motion.second_moment.trace();
+    } else if (updated)
         updated->add_velocity(centre, of_centre / radius, gradient);
     else
         add_to_nodes(centre, of_centre / radius, gradient);

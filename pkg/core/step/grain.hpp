@@ -20,6 +20,15 @@ template <int Dim> struct Motion {
     double kinetic = 0;                            ///< [J]
 };
 
+/// A grain that moves as a rigid body: as it was when it began to, turned by an angle since. The motion has its place and velocities.
+template <int Dim> struct Flight {
+    std::vector<double> displacement; ///< of the masters [radius]
+    Vec<Dim> centre;                  ///< of mass, X + u [radius]
+    std::vector<Vec<Dim>> arms;       ///< of the surface points, from there [m]
+    double outer = 0;                 ///< the longest of them [m]
+    double angle = 0;                 ///< [rad]
+};
+
 /// A soft grain: what it is made of, and its state. While it belongs to an Assembly the node fields live there;
 /// `pull` brings them here.
 template <int Dim> struct Grain {
@@ -36,6 +45,7 @@ template <int Dim> struct Grain {
     std::optional<UpdatedBody<Dim>> updated;
     Surface<Dim> surface;
     Motion<Dim> motion;
+    std::optional<Flight<Dim>> flight;              ///< see step/rigid_flight.hpp
     Vec<Dim> acceleration = Vec<Dim>::Zero();       ///< by forces on the grain as a whole, besides gravity [m/s2]
     Mat<Dim> spin_acceleration = Mat<Dim>::Zero();  ///< by torques on it, rate of a velocity gradient [1/s2]
     double min_J = 1, min_stretch = 1, elastic = 0; ///< elastic energy [J], as of the last evaluation
@@ -72,18 +82,22 @@ template <int Dim> struct Grain {
     /// Velocities of the material points [m/s].
     std::vector<Vec<Dim>> point_velocities() const;
 
-    Batch<Dim>* batch = nullptr; ///< of the assembly it belongs to
+    int number = 0;              ///< among the grains of its assembly
+    Batch<Dim>* batch = nullptr; ///< of the assembly it belongs to; none in flight
     int lane = 0;
-    /// Brings the node fields from the batch, if there is one.
+    /// Brings the node fields from the batch, if there is one, or from the motion of a flight.
     void pull();
     /// Hands them back.
     void put();
 
+    /// A batch of it alone, with the fields that it holds, and its surface positions.
+    Batch<Dim> alone() const;
+    /// Positions of the surface points in a batch [radius].
+    void take_positions(const double* of_surface);
+
 private:
     void refresh_from_nodes();
-    void take_positions(const double* of_surface);
     void add_to_nodes(const Vec<Dim>& centre, const Vec<Dim>& of_centre, const Mat<Dim>& gradient);
-    Batch<Dim> alone() const;
     std::vector<Vec<Dim>> at_points(const std::vector<double>& field) const;
     std::vector<double> with_slaves(const std::vector<double>& field) const;
 };

@@ -126,14 +126,16 @@ template <int Dim> std::vector<std::unique_ptr<ImplicitBody<Dim>>> implicit_bodi
 {
     std::vector<std::unique_ptr<ImplicitBody<Dim>>> bodies;
     std::map<const Discretisation<Dim>*, std::shared_ptr<const StiffnessPattern<Dim>>> patterns;
-    for (int b = 0; b < assembly.batch_count(); ++b) {
-        Batch<Dim>& batch = assembly.batch(b);
+    assembly.land_all();
+    Seating<Dim>& seats = assembly.seats();
+    for (int b = 0; b < seats.count(); ++b) {
+        Batch<Dim>& batch = seats.batch(b);
         auto& pattern = patterns[batch.mesh.get()];
         if (!pattern) pattern = std::make_shared<StiffnessPattern<Dim>>(*batch.mesh);
         if (pattern->most_rows > StiffnessPattern<Dim>::row_limit)
-            throw UserError("soft grain #" + std::to_string(assembly.members(b)[0]->id)
+            throw UserError("soft grain #" + std::to_string(seats.members(b)[0]->id)
                             + ": its grid is too coarse for the implicit scheme; give more points.");
-        bodies.push_back(std::make_unique<BatchInStep<Dim>>(batch, assembly.members(b), pattern));
+        bodies.push_back(std::make_unique<BatchInStep<Dim>>(batch, seats.members(b), pattern));
     }
     for (Grain<Dim>* grain : assembly.updated())
         bodies.push_back(std::make_unique<UpdatedInStep<Dim>>(*grain));

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/local_damping.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace softgrain {
 namespace {
 
@@ -63,15 +60,8 @@ namespace {
         double total_ = 0, inertia_ = 0;
     };
 
-    /// Of the speed, given the square of it and the product of velocity and its change.
-    double lost_share(double damping, double product, double square)
-    {
-        return square > 1e-200 ? std::min(1.0, damping * std::abs(product) / square) : 0;
-    }
-
 } // namespace
 
-/// Returns what the grain in a lane loses, per density and radius^(Dim + 2).
 template <int Dim> double LocalDamping<Dim>::damp(Batch<Dim>& batch, int lane, double damping)
 {
     const auto& mesh = *batch.mesh;
@@ -106,17 +96,6 @@ template <int Dim> double LocalDamping<Dim>::damp(Batch<Dim>& batch, int lane, d
             batch.velocity[(Dim * i + size_t(d)) * size_t(lanes) + size_t(lane)] += change[i][d];
     }
     return lost;
-}
-
-template <int Dim> double LocalDamping<Dim>::end(Batch<Dim>& batch, const std::vector<Grain<Dim>*>& members, double damping)
-{
-    double dissipated = 0;
-    for (size_t lane = 0; lane < members.size(); ++lane) {
-        const Grain<Dim>& grain = *members[lane];
-        dissipated += grain.density * std::pow(grain.radius, Dim + 2) * damp(batch, int(lane), damping);
-    }
-    motion_kernels<Dim>().velocities[batch.wide()](batch.data(), batch.extent.data());
-    return dissipated;
 }
 
 template class LocalDamping<2>;

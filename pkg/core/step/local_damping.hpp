@@ -10,9 +10,17 @@
 #pragma once
 
 #include "step/batch.hpp"
-#include "step/grain.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace softgrain {
+
+/// Of the speed, given the square of it and the product of velocity and its change.
+inline double lost_share(double damping, double product, double square)
+{
+    return square > 1e-200 ? std::min(1.0, damping * std::abs(product) / square) : 0;
+}
 
 template <int Dim> class LocalDamping {
 public:
@@ -20,14 +28,12 @@ public:
     void begin(const Batch<Dim>& batch) { start_ = batch.velocity; }
     /// Velocities before contact impulses.
     void strike(const Batch<Dim>& batch) { kicked_ = batch.velocity; }
-    /// Damps the velocities at the end of the step, as Velocities leaves them. Returns what is dissipated [J]: the balance of
-    /// the step counts internal forces and loads with the mean of the velocities before and after it, contacts with those
-    /// without damping.
-    double end(Batch<Dim>& batch, const std::vector<Grain<Dim>*>& members, double damping);
-
-private:
+    /// Damps the velocities of the grain in a lane at the end of the step, as Velocities leaves them. Returns what is
+    /// dissipated, per density and radius^(Dim + 2): the balance of the step counts internal forces and loads with the mean of
+    /// the velocities before and after it, contacts with those without damping.
     double damp(Batch<Dim>& batch, int lane, double damping);
 
+private:
     AlignedVector start_, kicked_;
 };
 

@@ -20,7 +20,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 PAGE = ROOT / "doc" / "effects.md"
 BEGIN, END = "<!-- python3 tests/benchmarks/effects/effects.py --write -->\n", "<!-- end of the table -->"
-EFFECTS = ("friction", "restitution", "adhesion", "gravity", "viscosity", "plasticity", "damping", "law of Ogden", "updated form",
+EFFECTS = ("friction", "restitution", "adhesion", "gravity", "viscosity", "plasticity", "damping", "rigid until touched", "law of Ogden", "updated form",
            "adaptive step", "self-contact", "free rigid body")
 GUESTS = ("self-contact", "free rigid body")  # against a scene with a body of the same place, their "zero"
 WITHOUT_ZERO = ("updated form", "adaptive step")

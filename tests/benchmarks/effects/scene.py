@@ -35,6 +35,8 @@ CASES = {
     "plasticity": {"law": PlasticMat, "material": {"yieldStress": 1e5}},
     "damping, zero": {"engines": {"damping": 0.0}},
     "damping": {"engines": {"damping": 0.2}},
+    "rigid until touched, zero": {"engines": {"rigidBelow": 0.0}},
+    "rigid until touched": {"engines": {"rigidBelow": 1e-2}},
     "law of Ogden, zero": {"law": OgdenMat, "material": {"mu": [MODULI["mu"]], "alpha": [2.0]}},
     "law of Ogden": {"law": OgdenMat, "material": {"mu": [MODULI["mu"] / 3], "alpha": [6.0]}},
     "updated form": {"shape": {"formulation": "updated"}},

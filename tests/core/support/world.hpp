@@ -26,6 +26,7 @@ public:
     std::optional<NewtonImpact<2>> impact;
     std::optional<Adhesion<2>> adhesion;
     double damping = 0;     ///< of local_damping.hpp
+    double rigid_below = 0; ///< of Assembly
     std::vector<int> order; ///< in which the assembly takes the grains; none: as they are
 
     // of the last step
@@ -69,6 +70,8 @@ public:
         if (!assembly_) start();
         assembly_->evaluate_stretch(threads);
     }
+    /// Grains in flight.
+    int flying() const { return assembly_->flying(); }
     /// In the grains in the last step [J/m].
     Assembly<2>::Dissipation dissipated() const { return assembly_->dissipated(); }
     /// Hands the fields back to the grains; the next step takes them in again.
@@ -107,14 +110,22 @@ private:
             if (adhesion) grain.surface.ahead = adhesion->range;
         assemble(members);
         assembly_->damping = damping;
+        assembly_->rigid_below = rigid_below;
     }
 
     void detect()
     {
-        each_pair([&](auto& contacts, size_t i, size_t j) { contacts.update(grains[i].surface, grains[j].surface, dt); });
+        for (auto& grain : grains)
+            grain.surface.near = false;
+        each_pair([&](auto& contacts, size_t i, size_t j) {
+            contacts.update(grains[i].surface, grains[j].surface, dt);
+            for (size_t g : { i, j })
+                grains[g].surface.near |= !contacts.points.empty();
+        });
         each_plane_pair([&](auto& contacts, size_t w, size_t i) {
             const Plane& plane = planes[w];
             contacts.update(grains[i].surface, plane.axis, plane.position, plane.side, std::abs(plane.speed), dt);
+            grains[i].surface.near |= !contacts.points.empty();
         });
     }
 
