@@ -41,7 +41,7 @@ namespace {
                     (batch.*field)[i * lanes + lane]
                         = grain.batch ? (grain.batch->*field)[i * grain.batch->lanes + grain.lane] : held[i];
             };
-            take(&Batch<Dim>::displacement, grain.displacement);
+            take(&Batch<Dim>::displacement, grain.flight ? grain.flight->displacement : grain.displacement);
             take(&Batch<Dim>::memory, grain.memory);
         }
         return batch;

@@ -36,6 +36,12 @@ namespace {
         return flight;
     }
 
+    /// A bound on the speed of its surface.
+    template <int Dim> double fastest(const Grain<Dim>& grain)
+    {
+        return grain.motion.velocity.norm() + std::abs(spin(grain)) * grain.flight->outer;
+    }
+
 } // namespace
 
 template <int Dim> void energy_over_step(Batch<Dim>& batch, double dt, std::vector<double>& energy)
@@ -125,7 +131,7 @@ template <int Dim> bool fly(Grain<Dim>& grain, double dt)
     motion.position += way;
     surface.min = motion.position.array() - outer;
     surface.max = motion.position.array() + outer;
-    surface.speed = motion.velocity.norm() + std::abs(rate) * outer;
+    surface.speed = fastest(grain);
     surface.travel += dt * surface.speed;
     surface.stale = true;
     if (surface.wanted) write_positions(grain);
@@ -191,6 +197,7 @@ template <int Dim> bool unpack_flight(const std::vector<double>& values, Grain<D
     grain.flight = flight_from(grain, centre);
     grain.flight->angle = *from++;
     grain.min_J = *from;
+    grain.surface.speed = fastest(grain);
     write_positions(grain);
     grain.surface.bound();
     return true;
