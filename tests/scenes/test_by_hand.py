@@ -334,7 +334,8 @@ def spoil(grain, amount):
 
 def untangled(checks):
     def start():
-        scene(*[(3 * RADIUS * k, {"velocity": (0.1 * k, 0, 0)}) for k in range(9)], safety=0.1)
+        # spinning, or they would fly as rigid bodies
+        scene(*[(3 * RADIUS * k, {"velocity": (0.1 * k, 0, 0), "spin": 1e-6}) for k in range(9)], safety=0.1)
         spoil(4, 1)
         measures.softIntegrator().elasticEnergy()   # grains are in batches now
         return O.bodies[4].state
