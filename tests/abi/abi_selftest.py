@@ -110,7 +110,7 @@ def test_members():
 
 def test_answers():
     own = list(probe.tinyClasses)
-    check(len(own) == 14, f"14 classes of the probe are registered, not {len(own)}")
+    check(len(own) == 15, f"15 classes of the probe are registered, not {len(own)}")
     for cls in list(probe.classes()) + own:
         said = probe.answers(probe.created(cls))
         check(said["class"] == cls, f"{cls}: getClassName")
@@ -131,6 +131,26 @@ def test_answers():
         check(list(probe.functorTypes(functor())) == types == list(functor().bases), f"{functor.__name__}: getFunctorTypes")
     for material, state in ((FrictMat, "State"), (CpmMat, "CpmState"), (TinyMat, "TinyState")):
         check(probe.answers(material())["state"] == (state, True), f"{material.__name__}: newAssocState, stateTypeOk")
+
+
+def test_static_attributes():
+    """YADE's own and the probe's: all objects share them, the class shows them, and they begin as they are declared."""
+    check((Gl1_TinyShape.slices, Gl1_TinyShape.fixed, tuple(Gl1_TinyShape.range)) == (12, "text", (3, 4)), "static attributes: initial values")
+    Gl1_TinyShape.slices = 7
+    Gl1_TinyShape().range = (5, 6)
+    check(Gl1_TinyShape().slices == 7 and tuple(Gl1_TinyShape.range) == (5, 6), "static attributes: shared")
+    check(Gl1_TinyShape(slices=8).dict()["slices"] == 8 == Gl1_TinyShape.slices, "static attributes: keywords and dict")
+    check(all(text in cls.__doc__ for cls, text in ((Gl1_TinyShape, "ystaticattr:: Gl1_TinyShape.slices(=12)"),
+                                                    (Gl1_Sphere, "ystaticattr:: Gl1_Sphere.quality(=1.0)"))),
+          "static attributes: in the text of the class")
+    try:
+        Gl1_TinyShape.fixed = "other"
+        check(False, "static attributes: read-only")
+    except AttributeError:
+        pass
+    for functor, shape in ((Gl1_Sphere, "Sphere"), (Gl1_Facet, "Facet"), (Gl1_TinyShape, "TinyShape")):
+        check(probe.renders(functor()) == shape and list(probe.functorTypes(functor())) == [shape], f"{functor.__name__}: renders, getFunctorTypes")
+    check(O.isChildClassOf("Gl1_TinyShape", "GlShapeFunctor"), "the 3D view finds the probe's functor")
 
 
 def test_objects():
@@ -315,7 +335,7 @@ def test_running_scene():
     test_archives(test_scene())
 
 
-for test in (test_members, test_answers, test_objects, test_running_scene, test_control):
+for test in (test_members, test_answers, test_static_attributes, test_objects, test_running_scene, test_control):
     try:
         test()
     except Exception:  # noqa: BLE001

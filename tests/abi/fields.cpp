@@ -7,6 +7,7 @@
 #include <core/TimeStepper.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>
+#include <pkg/common/GLDrawFunctors.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
@@ -57,6 +58,7 @@ namespace {
         CLASS(IGeomFunctor, 88, )
         CLASS(IPhysFunctor, 88, )
         CLASS(LawFunctor, 88, )
+        CLASS(GlShapeFunctor, 88, )
     }
 
     void bodies(Table& t)

@@ -5,6 +5,7 @@
 #include <core/Clump.hpp>
 #include <core/InteractionLoop.hpp>
 #include <pkg/common/Facet.hpp>
+#include <pkg/common/GLDrawFunctors.hpp>
 #include <pkg/common/MatchMaker.hpp>
 #include <pkg/yade/plugin_classes.hpp>
 
@@ -63,6 +64,7 @@ py::dict answers(const shared_ptr<Serializable>& self)
     return said;
 }
 
+string renders(const GlShapeFunctor& f) { return f.renders(); }
 vector<string> functorTypes(const Functor& f) { return f.getFunctorTypes(); }
 
 template <class Functors> py::list names(const Functors& functors)
@@ -152,6 +154,7 @@ void expose()
     py::def("assign", assign);
     py::def("answers", answers);
     py::def("functorTypes", functorTypes);
+    py::def("renders", renders);
     py::def("live", live);
     py::def("members", members);
     py::def("facet", facet);

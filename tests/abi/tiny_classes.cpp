@@ -5,6 +5,7 @@
 //   TinyGeom, TinyPhys                   an interaction
 //   Bo1_TinyShape_Aabb, Ig2_TinyShape_TinyShape_TinyGeom, Ig2_Wall_TinyShape_TinyGeom, Ip2_TinyMat_TinyMat_TinyPhys,
 //   Law2_TinyGeom_TinyPhys_Spring        its functors
+//   Gl1_TinyShape                        which would draw it
 //   TinyEngine, TinyPeriodic, TinyPartial, TinyStepper
 #include <core/Aabb.hpp>
 #include <core/Dispatching.hpp>
@@ -12,6 +13,7 @@
 #include <core/TimeStepper.hpp>
 #include <lib/base/Logging.hpp>
 #include <pkg/common/ElastMat.hpp>
+#include <pkg/common/GLDrawFunctors.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Wall.hpp>
 
@@ -176,6 +178,19 @@ public:
 };
 REGISTER_SERIALIZABLE(Law2_TinyGeom_TinyPhys_Spring);
 
+class Gl1_TinyShape : public GlShapeFunctor {
+public:
+    RENDERS(TinyShape);
+    YADE_CLASS_BASE_DOC_STATICATTRS(Gl1_TinyShape, GlShapeFunctor, "Draws nothing.",
+                                    ((int, slices, 12, , "Shared by all"))((Vector2r, range, Vector2r(3, 4), ,
+                                                                            "Shared too"))((string, fixed, "text",
+                                                                                            Attr::readonly, "As it is")));
+};
+REGISTER_SERIALIZABLE(Gl1_TinyShape);
+int Gl1_TinyShape::slices;
+Vector2r Gl1_TinyShape::range;
+string Gl1_TinyShape::fixed;
+
 class TinyEngine : public GlobalEngine {
 public:
     int energyId = -1;
@@ -225,6 +240,6 @@ public:
 REGISTER_SERIALIZABLE(TinyStepper);
 
 YADE_PLUGIN((
-    TinyShape)(TinyState)(TinyMat)(TinyGeom)(TinyPhys)(Bo1_TinyShape_Aabb)(Ig2_TinyShape_TinyShape_TinyGeom)(Ig2_Wall_TinyShape_TinyGeom)(Ip2_TinyMat_TinyMat_TinyPhys)(Law2_TinyGeom_TinyPhys_Spring)(TinyEngine)(TinyPeriodic)(TinyPartial)(TinyStepper));
+    TinyShape)(TinyState)(TinyMat)(TinyGeom)(TinyPhys)(Bo1_TinyShape_Aabb)(Ig2_TinyShape_TinyShape_TinyGeom)(Ig2_Wall_TinyShape_TinyGeom)(Ip2_TinyMat_TinyMat_TinyPhys)(Law2_TinyGeom_TinyPhys_Spring)(Gl1_TinyShape)(TinyEngine)(TinyPeriodic)(TinyPartial)(TinyStepper));
 
 } // namespace yade

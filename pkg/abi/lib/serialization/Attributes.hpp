@@ -35,6 +35,10 @@ template <class K> shared_ptr<K> createFromKeywords(py::tuple args, py::dict key
     return made;
 }
 
+// An attribute is a member, or static: shared by all objects of the class.
+template <class K, class T, class C> auto& valueOf(K& object, T C::*attribute) { return object.*attribute; }
+template <class K, class T> T& valueOf(K&, T* attribute) { return *attribute; }
+
 // The four things done with each attribute of an object.
 
 template <class K> struct SetByName {
@@ -42,10 +46,11 @@ template <class K> struct SetByName {
     const string& key;
     const py::object& value;
     bool done = false;
-    template <class T, class C> void operator()(const char* name, T C::*attribute, int, const char*)
+    template <class Attribute> void operator()(const char* name, Attribute attribute, int, const char*)
     {
         if (done || key != name) return;
-        object.*attribute = py::extract<T>(value)();
+        auto& held = valueOf(object, attribute);
+        held = py::extract<std::decay_t<decltype(held)>>(value)();
         done = true;
     }
 };
@@ -53,18 +58,18 @@ template <class K> struct SetByName {
 template <class K> struct CollectValues {
     const K& object;
     py::dict& values;
-    template <class T, class C> void operator()(const char* name, T C::*attribute, int flags, const char*)
+    template <class Attribute> void operator()(const char* name, Attribute attribute, int flags, const char*)
     {
-        if (!(flags & Attr::hidden)) values[name] = py::object(object.*attribute);
+        if (!(flags & Attr::hidden)) values[name] = py::object(valueOf(object, attribute));
     }
 };
 
 template <class K, class Archive> struct Archived {
     K& object;
     Archive& archive;
-    template <class T, class C> void operator()(const char* name, T C::*attribute, int flags, const char*)
+    template <class Attribute> void operator()(const char* name, Attribute attribute, int flags, const char*)
     {
-        if (!(flags & Attr::noSave)) archive& boost::serialization::make_nvp(name, object.*attribute);
+        if (!(flags & Attr::noSave)) archive& boost::serialization::make_nvp(name, valueOf(object, attribute));
     }
 };
 
@@ -87,6 +92,14 @@ template <class K, class PyClass> struct Exposed {
             shown.add_property(name, get, py::make_function(reload, py::default_call_policies(), Setter()), text.c_str());
         else
             shown.add_property(name, get, py::make_function(set, py::default_call_policies(), Setter()), text.c_str());
+    }
+    /// Static; Boost keeps no text for these, the class's own has it.
+    template <class T> void operator()(const char* name, T* attribute, int flags, const char*)
+    {
+        if (flags & Attr::readonly)
+            shown.def_readonly(name, attribute);
+        else if (!(flags & Attr::hidden))
+            shown.def_readwrite(name, attribute);
     }
     template <class T, class C> static py::object getter(T C::*attribute)
     {
@@ -114,6 +127,17 @@ template <class K, class PyClass> struct Exposed {
 public:                                                                                                                     \
     BOOST_PP_SEQ_FOR_EACH(YADE_ABI_ATTR_MEMBER, ~, attrs)                                                                   \
     K() BOOST_PP_IF(BOOST_PP_SEQ_SIZE(inits), :, ) BOOST_PP_SEQ_FOR_EACH_I(YADE_ABI_INIT, ~, inits) { ctor; }               \
+    YADE_ABI_CLASS(K, Base, doc, attrs, , py)
+
+// Of attributes that all objects share; the source file has to define them, and they get their initial values at registration.
+#define YADE_CLASS_BASE_DOC_STATICATTRS(K, Base, doc, attrs)                                                                \
+public:                                                                                                                     \
+    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_STATIC_MEMBER, ~, attrs)                                                                 \
+    K() { }                                                                                                                 \
+    YADE_ABI_CLASS(K, Base, doc "\n\n" BOOST_PP_SEQ_FOR_EACH(YADE_ABI_STATIC_DOC, K, attrs), attrs,                         \
+                   BOOST_PP_SEQ_FOR_EACH(YADE_ABI_STATIC_INIT, K, attrs), )
+
+#define YADE_ABI_CLASS(K, Base, doc, attrs, atRegistration, py)                                                             \
     REGISTER_CLASS_AND_BASE(K, Base)                                                                                        \
                                                                                                                             \
     template <class Visitor> static void eachAttribute([[maybe_unused]] Visitor& visit)                                     \
@@ -143,7 +167,7 @@ public:                                                                         
     void pyRegisterClass(::boost::python::object where) override                                                            \
     {                                                                                                                       \
         checkPyClassRegistersItself(#K);                                                                                    \
-        const ::boost::python::scope in(where);                                                                             \
+        atRegistration const ::boost::python::scope in(where);                                                              \
         const ::boost::python::docstring_options shownDocs(true, true, false);                                              \
         using Shown                                                                                                         \
             = ::boost::python::class_<K, ::boost::shared_ptr<K>, ::boost::python::bases<Base>, ::boost::noncopyable>;       \
@@ -176,6 +200,11 @@ public:
 #define YADE_ABI_ATTR(i, a) BOOST_PP_TUPLE_ELEM(5, i, a)
 #define YADE_ABI_ATTR_MEMBER(r, _, a)                                                                                       \
     YADE_ABI_ATTR(0, a) YADE_ABI_ATTR(1, a) = decltype(YADE_ABI_ATTR(1, a))(YADE_ABI_ATTR(2, a));
+#define YADE_ABI_STATIC_MEMBER(r, _, a) static YADE_ABI_ATTR(0, a) YADE_ABI_ATTR(1, a);
+#define YADE_ABI_STATIC_INIT(r, K, a) K::YADE_ABI_ATTR(1, a) = YADE_ABI_ATTR(2, a);
+#define YADE_ABI_STATIC_DOC(r, K, a)                                                                                        \
+    ".. ystaticattr:: " BOOST_PP_STRINGIZE(K) "." BOOST_PP_STRINGIZE(YADE_ABI_ATTR(1, a)) "(=" BOOST_PP_STRINGIZE(          \
+        YADE_ABI_ATTR(2, a)) ")\n\n\t" YADE_ABI_ATTR(4, a) "\n\n"
 #define YADE_ABI_ATTR_VISIT(r, K, a)                                                                                        \
     visit(BOOST_PP_STRINGIZE(YADE_ABI_ATTR(1, a)), &K::YADE_ABI_ATTR(1, a), (YADE_ABI_ATTR(3, a) + 0),                      \
           YADE_ABI_ATTR(4, a) " :ydefault:`" BOOST_PP_STRINGIZE(YADE_ABI_ATTR(2, a)) "` :yattrtype:`" BOOST_PP_STRINGIZE(   \
