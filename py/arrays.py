@@ -12,6 +12,12 @@ def points(body):
     return _array(_state(body).pointPositions(), 2)
 
 
+def displacements(body):
+    """Displacements of the material points [m], shape (points, 2), from where they lay in the undeformed grain when its
+    body was put down (at state.refPos, turned by state.refOri)."""
+    return points(body) - _array(_state(body).pointReferencePositions(), 2)
+
+
 def pointVelocities(body):
     """Velocities of the material points [m/s], shape (points, 2)."""
     return _array(_state(body).pointVelocities(), 2)
@@ -29,7 +35,12 @@ def deformationGradients(body):
 
 def volumeRatios(body):
     """J = det F at the material points [-], shape (points,)."""
-    return numpy.linalg.det(deformationGradients(body))
+    return volumeRatio(deformationGradients(body))
+
+
+def principalStretches(body):
+    """Principal stretches in the plane at the material points [-], the larger first, shape (points, 2). The third is 1."""
+    return stretches(deformationGradients(body))
 
 
 def cauchyStresses(body):
@@ -39,15 +50,12 @@ def cauchyStresses(body):
 
 def vonMisesStresses(body):
     """Von Mises stresses at the material points [Pa], shape (points,)."""
-    stress = cauchyStresses(body)
-    mean = numpy.trace(stress, axis1=1, axis2=2) / 3
-    deviator = stress - mean[:, None, None] * numpy.eye(3)
-    return numpy.sqrt(1.5 * numpy.sum(deviator**2, axis=(1, 2)))
+    return vonMises(cauchyStresses(body))
 
 
 def pressures(body):
     """Pressures, minus the mean Cauchy stresses, at the material points [Pa], shape (points,)."""
-    return -numpy.trace(cauchyStresses(body), axis1=1, axis2=2) / 3
+    return pressure(cauchyStresses(body))
 
 
 def plasticStrains(body):
@@ -59,6 +67,29 @@ def plasticStrains(body):
 def outline(body):
     """Current boundary, counter-clockwise [m], shape (surface points, 2)."""
     return _array(_state(body).outline(), 2)
+
+
+def volumeRatio(F):
+    """det F of deformation gradients, shape (..., 2, 2), shape (...) [-]."""
+    return F[..., 0, 0] * F[..., 1, 1] - F[..., 0, 1] * F[..., 1, 0]
+
+
+def stretches(F):
+    """Singular values of deformation gradients, shape (..., 2, 2), the larger first, shape (..., 2) [-]."""
+    turned = numpy.hypot(F[..., 0, 0] + F[..., 1, 1], F[..., 1, 0] - F[..., 0, 1])
+    sheared = numpy.hypot(F[..., 0, 0] - F[..., 1, 1], F[..., 1, 0] + F[..., 0, 1])
+    return numpy.stack([turned + sheared, abs(turned - sheared)], axis=-1) / 2
+
+
+def vonMises(stress):
+    """Von Mises stress of stress tensors, shape (..., 3, 3), in their unit, shape (...)."""
+    deviator = stress + pressure(stress)[..., None, None] * numpy.eye(3)
+    return numpy.sqrt(1.5 * numpy.sum(deviator**2, axis=(-2, -1)))
+
+
+def pressure(stress):
+    """Minus the mean normal stress of stress tensors, shape (..., 3, 3), in their unit, shape (...)."""
+    return -numpy.trace(stress, axis1=-2, axis2=-1) / 3
 
 
 def _state(body):

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene that runs through windows of time, a row of the csv for each: the loop of heavy_ball.py, funnel.py and drum.py."""
-import math
-
 import numpy
-import yade.wrapper as wrapper
 from yade import O
-from yade.minieigenHP import Vector3
 
-from . import arrays, measures
+from . import arrays, measures, rigid
 
 
 class Timed:
@@ -64,25 +60,9 @@ def snapshot():
     boxes and facets as rigid outlines [m]."""
     soft = measures.softBodies()
     outlines, points = [arrays.outline(body) for body in soft], [arrays.points(body) for body in soft]
-    rigid = [outline for outline in map(_rigid_outline, O.bodies) if outline is not None]
+    bodies = [outline for outline in map(rigid.outline, O.bodies) if outline is not None]
     return {"outlines": numpy.concatenate(outlines), "outline_sizes": numpy.array([len(o) for o in outlines]),
             "points": numpy.concatenate(points), "point_sizes": numpy.array([len(p) for p in points]),
             "von_mises_Pa": numpy.concatenate([arrays.vonMisesStresses(body) for body in soft]),
-            "rigid_outlines": numpy.concatenate(rigid) if rigid else numpy.empty((0, 2)),
-            "rigid_sizes": numpy.array([len(o) for o in rigid], dtype=int)}
-
-
-def _rigid_outline(body):
-    """Corners of a rigid body in the plane [m]; None for others."""
-    if isinstance(body.shape, wrapper.Sphere):
-        turn = numpy.linspace(0, 2 * math.pi, 64, endpoint=False)
-        local = body.shape.radius * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), 0 * turn])
-    elif isinstance(body.shape, wrapper.Facet):
-        local = numpy.array(body.shape.vertices)
-    elif isinstance(body.shape, wrapper.Box):
-        x, y = body.shape.extents[0], body.shape.extents[1]
-        local = numpy.array([(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)])
-    else:
-        return None
-    turned = numpy.array([body.state.ori * Vector3(*map(float, corner)) for corner in local])
-    return turned[:, :2] + numpy.array(body.state.pos)[:2]
+            "rigid_outlines": numpy.concatenate(bodies) if bodies else numpy.empty((0, 2)),
+            "rigid_sizes": numpy.array([len(o) for o in bodies], dtype=int)}

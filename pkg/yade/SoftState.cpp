@@ -11,8 +11,6 @@
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
-#include <mutex>
-
 namespace yade {
 
 YADE_PLUGIN((SoftState));
@@ -66,9 +64,16 @@ SoftState* softStateOf(const Body& body)
     return soft ? static_cast<SoftState*>(body.state.get()) : nullptr;
 }
 
+std::mutex& SoftState::settingUp()
+{
+    static std::mutex guard;
+    return guard;
+}
+
 void SoftState::prepare(const Body& body)
 {
     if (prepared()) return;
+    const std::lock_guard lock(settingUp());
     auto* shape = static_cast<SoftGrain*>(body.shape.get());
     softgrain::Grain<2> fresh;
     try {
@@ -293,7 +298,21 @@ void SoftState::preSave(SoftState&)
     ahead = grain.surface.ahead;
 }
 
+std::vector<softgrain::Vec<2>> SoftState::referencePlaces() const
+{
+    auto places = grain.mesh->point_position;
+    const softgrain::Mat<2> turn = refOri.toRotationMatrix().topLeftCorner<2, 2>();
+    for (auto& place : places)
+        place = refPos.head<2>() + grain.radius * turn * place;
+    return places;
+}
+
 boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }
+boost::python::object SoftState::pointReferencePositions()
+{
+    current();
+    return flattened(referencePlaces());
+}
 boost::python::object SoftState::pointVelocities() { return flattened(current().point_velocities()); }
 boost::python::object SoftState::deformationGradients() { return flattened(current().deformation_gradients()); }
 boost::python::object SoftState::cauchyStress() { return flattened(current().cauchy_stresses()); }

@@ -8,6 +8,7 @@
 #include "step/grain.hpp"
 
 #include <array>
+#include <mutex>
 
 namespace yade {
 
@@ -22,6 +23,8 @@ public:
     /// fields; once done costs nothing. Throws softgrain::UserError.
     void prepare(const Body& body);
     bool prepared() const { return grain.mesh != nullptr; }
+    /// Held while a grain is set up, so that another thread sees it before or after.
+    static std::mutex& settingUp();
     /// The body's material is not what the grain was set up with. Throws softgrain::UserError when the shape is not.
     bool outdated(const Body& body) const;
     /// Takes the body's material as it is now; the grain must not be in an assembly. Throws softgrain::UserError.
@@ -40,6 +43,8 @@ public:
     void preSave(SoftState&);
     /// With positions as of now, which steps leave out where nothing touches. Threads may ask at once.
     const softgrain::Surface<2>& surface() const;
+    /// Where the material points lie in the undeformed grain, put at refPos and turned by refOri [m].
+    std::vector<softgrain::Vec<2>> referencePlaces() const;
     bool folded() const { return softgrain::is_folded(surface(), grain.mesh->is_concave()); }
 
     // what Python sees of State: other engines (NewtonIntegrator) change vel and angVel themselves
@@ -63,6 +68,7 @@ public:
     }
 
     boost::python::object pointPositions();
+    boost::python::object pointReferencePositions();
     boost::python::object pointVelocities();
     boost::python::object pointVolumes();
     boost::python::object deformationGradients();
@@ -112,6 +118,9 @@ public:
                     (int, format, currentFormat, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),
             .def("pointPositions", &SoftState::pointPositions, "Current positions of the material points, (points, 2) [m].")
+                    .def("pointReferencePositions",
+                         &SoftState::pointReferencePositions,
+                         "Where the material points lie in the undeformed grain at refPos, turned by refOri, (points, 2) [m].")
                     .def("pointVelocities", &SoftState::pointVelocities, "Velocities of the material points, (points, 2) [m/s].")
                     .def("pointVolumes", &SoftState::pointVolumes, "Reference areas of the material points, (points,) [m²].")
                     .def("deformationGradients", &SoftState::deformationGradients, "F at the material points, (points, 2, 2) [-].")
