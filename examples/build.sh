@@ -8,7 +8,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${SOFTGRAIN_BUILD:-$root/build}
 needed=(yade g++ cmake ninja-build libeigen3-dev libboost-python-dev libboost-serialization-dev libboost-log-dev
-        python3-dev python3-numpy python3-matplotlib)
+        libglu1-mesa-dev python3-dev python3-numpy python3-matplotlib)
 
 die() {
     printf 'softgrain: %s\n' "$1" >&2

@@ -4,6 +4,8 @@
 A scene says `from softgrain import *` and has the classes of the plugin (NeoHookeanMat, SoftGrain, SoftIntegrator...),
 the builders (softDisc, softPolygon, softCloud, softBox, rigidDisc, softEngines), and the modules arrays (what a grain holds, as
 numpy arrays), measures and stresses (of a running scene) and fclib (its contact problems, for other solvers)."""
+import sys
+
 from . import _guard
 _guard.check()
 from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
@@ -29,7 +31,20 @@ def _renew_dispatchers():
                 dispatcher.functors = dispatcher.functors
 
 
+def _enter_windows():
+    """YADE's windows, where they are open, know the classes of when they opened, in their 3D view and by name."""
+    qt = sys.modules.get("yade.qt")
+    if qt is None:
+        return
+    _softgrain.renewRenderer(qt.Renderer())
+    for window in (qt, sys.modules["yade.qt.SerializableEditor"]):
+        vars(window).update({name: getattr(yade.wrapper, name) for name in _softgrain.classes})
+    if qt.controller and "Gl1_SoftGrain" in _softgrain.classes:
+        qt.controller.displayCombo.addItem("Gl1_SoftGrain")
+
+
 _renew_dispatchers()
+_enter_windows()
 
 __all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "rigidContacts", "rigidDisc",
            "softBox", "softCloud", "softDisc", "softEngines", "softPolygon", "stresses"]

@@ -57,11 +57,11 @@ void SoftIntegrator::action()
 {
     std::vector<shared_ptr<Body>> left;
     {
-        const std::lock_guard<std::recursive_mutex> lock(guard_);
+        const std::lock_guard lock(guard_);
         left.swap(left_);
     }
     letGo(std::move(left));
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     Problems::raise();
     requireSaneAttributes();
     adopt();
@@ -335,7 +335,7 @@ void SoftIntegrator::meetThemselves() const
 
 void SoftIntegrator::evaluate()
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     scene = Omega::instance().getScene().get(); // a loaded engine still points to the scene before, until it runs
     for (const auto& body : *scene->bodies)
         if (softStateOf(*body) && !body->bound) return; // the first step has still to come
@@ -364,7 +364,7 @@ void SoftIntegrator::trackEnergies()
 
 Real SoftIntegrator::elasticEnergy()
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     evaluate();
     if (!assembly_) return 0;
     assembly_->evaluate_energy(2 * velocitiesBehind(), threads());
@@ -376,7 +376,7 @@ Real SoftIntegrator::elasticEnergy()
 
 Real SoftIntegrator::kineticEnergy()
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     Real sum = 0;
     for (const SoftState* state : soft_.states)
         sum += state->grain.motion.kinetic;
@@ -385,7 +385,7 @@ Real SoftIntegrator::kineticEnergy()
 
 Real SoftIntegrator::solidArea()
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     Real sum = 0;
     for (SoftState* state : soft_.states)
         sum += state->area();
@@ -394,19 +394,19 @@ Real SoftIntegrator::solidArea()
 
 Real SoftIntegrator::minJ() const
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     return assembly_ ? assembly_->min_J() : 1;
 }
 
 Real SoftIntegrator::residual() const
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     return pairs_.problem.residual();
 }
 
 boost::python::tuple SoftIntegrator::contactProblem() const
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     const auto form = softgrain::matrix_form(pairs_.problem);
     const auto& W = form.W;
     return boost::python::make_tuple(asBytes(W.outerIndexPtr(), W.outerSize() + 1), asBytes(W.innerIndexPtr(), W.nonZeros()),
@@ -417,13 +417,13 @@ boost::python::tuple SoftIntegrator::contactProblem() const
 
 boost::python::object SoftIntegrator::contactPoints() const
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     return asBytes(pairs_.pointForces());
 }
 
 boost::python::list SoftIntegrator::contacts() const
 {
-    const std::lock_guard<std::recursive_mutex> lock(guard_);
+    const std::lock_guard lock(guard_);
     return pairs_.withForce();
 }
 

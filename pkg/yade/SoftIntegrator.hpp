@@ -11,6 +11,7 @@
 #include "step/assembly.hpp"
 #include "step/critical_step.hpp"
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 
@@ -33,6 +34,9 @@ public:
     boost::python::object contactPoints() const;
     virtual boost::python::tuple contactProblem() const;
     void postLoad(SoftIntegrator&);
+    using Pause = std::unique_lock<std::recursive_timed_mutex>;
+    /// No step is taken while it lives; it owns no lock where a step has not ended within that time.
+    Pause pause(std::chrono::milliseconds patience) const { return Pause(guard_, patience); }
 
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(
             SoftIntegrator,
@@ -130,7 +134,7 @@ protected:
     virtual Real velocitiesBehind() const { return scene->dt / 2; }
     int threads() const;
 
-    mutable std::recursive_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask
+    mutable std::recursive_timed_mutex guard_; ///< O.run() steps in a thread of its own, while scripts ask
     SoftBodies soft_;
     std::vector<std::pair<shared_ptr<Body>, const State*>> known_; ///< all bodies of the scene when it was last looked at
     SoftLoads loads_ { soft_ };

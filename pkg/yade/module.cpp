@@ -3,8 +3,15 @@
 // _softgrain.classes lists their names. The package checks the running YADE before it imports this module.
 #include "plugin_classes.hpp"
 
+#include <pkg/common/OpenGLRenderer.hpp>
+
+namespace {
+void renewRenderer(yade::OpenGLRenderer& renderer) { renderer.init(); }
+}
+
 BOOST_PYTHON_MODULE(_softgrain)
 {
     boost::python::import("softgrain._guard").attr("check")();
     boost::python::scope().attr("classes") = yade::registerNewPluginClasses();
+    boost::python::def("renewRenderer", renewRenderer, "Lets YADE's 3D view know all classes that draw.");
 }
