@@ -126,14 +126,12 @@ public:
                 }
             }
         for (size_t b = 0; b < bodies_.size(); ++b) {
-            if (bodies_[b].first < 0) continue;
             Surface<Dim>& surface = *problem_->bodies[b];
+            for (int p = 0; surface.rigid && p < surface.count; ++p)
+                surface.v(p) = surface.rigid->lever(surface.x(p)) * surface.rigid->twist;
+            if (bodies_[b].first < 0 || surface.rigid) continue;
             const double* from = velocity_.data() + Dim * bodies_[b].first;
-            if (!surface.rigid)
-                std::copy(from, from + surface.velocity.size(), surface.velocity.begin());
-            else
-                for (int p = 0; p < surface.count; ++p)
-                    surface.v(p) = surface.rigid->lever(surface.x(p)) * surface.rigid->twist;
+            std::copy(from, from + surface.velocity.size(), surface.velocity.begin());
         }
         among_rigid_.finish();
     }
