@@ -229,6 +229,10 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     if isinstance(more, wrapper.Engine) or not isinstance(more, (list, tuple)):
         raise InputError(f"softEngines: more is a {type(more).__name__}: give a list of engines.")
     geometries, physics, laws = _sorted(functors)
+    for functor in physics:
+        if isinstance(functor, wrapper.Ip2_FrictMat_FrictMat_SoftPhys):
+            functor.updateAttrs(effects)
+    ahead = any(isinstance(law, wrapper.Law2_ScGeom_FrictPhys_ContactDynamics) for law in laws)
     if implicit:
         mover = wrapper.SoftImplicitIntegrator(gravity=Vector3(*gravity), tolerance=tolerance, theta=theta,
                                                quasistatic=bool(quasistatic))
@@ -239,8 +243,8 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
         wrapper.ForceResetter(),
         # with targetInterv the bound of a body at rest has no margin, and each one that starts to move costs a sort
         wrapper.InsertionSortCollider(
-            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb(), wrapper.Bo1_Sphere_Aabb(),
-             wrapper.Bo1_Facet_Aabb()], verletDist=verletDist, targetInterv=-1),
+            [wrapper.Bo1_SoftGrain_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Box_Aabb(), wrapper.Bo1_Facet_Aabb(),
+             wrapper.Bo1_Sphere_Aabb(**({"aabbEnlargeFactor": 1 + AHEAD} if ahead else {}))], verletDist=verletDist, targetInterv=-1),
         *steppers,  # InteractionLoop looks ahead by the time step
         wrapper.InteractionLoop(
             [wrapper.Ig2_SoftGrain_SoftGrain_SoftGeom(), wrapper.Ig2_Wall_SoftGrain_SoftGeom(),
@@ -271,9 +275,10 @@ def rigidContacts(friction=None):
     friction  Coulomb's coefficient [-]; None: from the materials' frictionAngle, the smaller of two, as YADE does
     Raises InputError, one sentence, on a value that makes no sense.
     """
-    return [wrapper.Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + AHEAD), wrapper.Ig2_Wall_Sphere_ScGeom(),
-            wrapper.Ig2_Box_Sphere_ScGeom(), wrapper.Ig2_Facet_Sphere_ScGeom(),
-            wrapper.Ip2_FrictMat_FrictMat_FrictPhys(**_friction("friction", friction, "rigidContacts")),
+    return [wrapper.Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + AHEAD),
+            wrapper.Ig2_Wall_Sphere_ScGeomAhead(interactionDetectionFactor=1 + AHEAD),
+            wrapper.Ig2_Box_Sphere_ScGeom(interactionDetectionFactor=1 + AHEAD), wrapper.Ig2_Facet_Sphere_ScGeom(),
+            wrapper.Ip2_FrictMat_FrictMat_SoftPhys(**_friction("friction", friction, "rigidContacts")),
             wrapper.Law2_ScGeom_FrictPhys_ContactDynamics()]
 
 

@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Ip2_FrictMat_SoftMat_SoftPhys)(Ip2_SoftMat_SoftMat_SoftPhys));
+YADE_PLUGIN((Ip2_FrictMat_SoftMat_SoftPhys)(Ip2_SoftMat_SoftMat_SoftPhys)(Ip2_FrictMat_FrictMat_SoftPhys));
 
 namespace {
     /// Materials have no such number of their own: 0.

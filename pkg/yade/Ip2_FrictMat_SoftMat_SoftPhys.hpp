@@ -56,4 +56,15 @@ public:
 };
 REGISTER_SERIALIZABLE(Ip2_SoftMat_SoftMat_SoftPhys);
 
+class Ip2_FrictMat_FrictMat_SoftPhys : public Ip2_FrictMat_SoftMat_SoftPhys {
+public:
+    FUNCTOR2D(FrictMat, FrictMat);
+    YADE_CLASS_BASE_DOC(
+            Ip2_FrictMat_FrictMat_SoftPhys,
+            Ip2_FrictMat_SoftMat_SoftPhys,
+            "Friction, restitution and adhesion of two rigid bodies for :yref:`Law2_ScGeom_FrictPhys_ContactDynamics`, as "
+            ":yref:`Ip2_FrictMat_SoftMat_SoftPhys`. Restitution is that of the bodies here.");
+};
+REGISTER_SERIALIZABLE(Ip2_FrictMat_FrictMat_SoftPhys);
+
 } // namespace yade

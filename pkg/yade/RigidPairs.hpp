@@ -3,6 +3,7 @@
 
 #include "FreeBodies.hpp"
 #include "HandedOver.hpp"
+#include "SoftPhys.hpp"
 
 #include "solver/contact_problem.hpp"
 
@@ -17,6 +18,7 @@ struct RigidPair {
     Body::id_t id1, id2;
     shared_ptr<ScGeom> geom;
     shared_ptr<FrictPhys> phys;
+    SoftPhys* effects;                             ///< the same, where it may have restitution and adhesion; else null
     softgrain::RigidBody<2>::Twist twist1, twist2; ///< before NewtonIntegrator took its step, of clumps as a whole
 };
 
@@ -26,9 +28,9 @@ public:
     /// Takes the pairs, in any order.
     void collect(std::vector<RigidPair>&& pairs);
     void clear() { pairs_.clear(); }
-    /// Adds the contacts to a problem. Arguments as of SoftPairs::pose.
-    void pose(const Scene& scene, FreeBodies& free, softgrain::ContactProblem<2>& problem, double kick, Real recovery,
-              Real moved);
+    /// Adds the contacts to a problem, and what adhesion pulls at them to `pulls`. Other arguments as of SoftPairs::pose.
+    void pose(const Scene& scene, FreeBodies& free, softgrain::ContactProblem<2>& problem,
+              softgrain::ContactProblem<2>& pulls, double kick, Real recovery, Real moved);
     /// Forces of the solved problem to the interactions, which the next step starts from, and to O.forces.
     void deliver(Scene& scene, const softgrain::ContactProblem<2>& problem, double kick);
     Real deepest() const { return deepest_; } ///< penetration [radius of the smaller body]
@@ -38,6 +40,9 @@ public:
     void addPointForces(std::vector<Real>& rows) const;
 
 private:
+    softgrain::Contact<2> contactOf(const RigidPair& pair, const Scene& scene, FreeBodies& free,
+                                    softgrain::ContactProblem<2>& problem, Real moved) const;
+
     std::vector<RigidPair> pairs_;
     std::vector<int> contact_; ///< of each pair; -1: neither body moves
     Real deepest_ = 0;

@@ -72,7 +72,7 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
             pair.describe(point, contact);
             contact.vertex = point.vertex;
             contact.weight = point.weight;
-            contact.offset = (point.gap > 0 ? point.gap : recovery * point.gap) / scene.dt * point.normal;
+            contact.offset = softgrain::gap_speed(point.gap, recovery, scene.dt) * point.normal;
             contact.drive = softgrain::Vec<2>::Zero();
             if (pair.body1 < 0) contact.drive = pair.rigid->vel.head<2>();
             contact.law = pair.phys->law;
@@ -83,8 +83,8 @@ void SoftPairs::pose(const Scene& scene, double kick, Real recovery, Real moved)
         for (size_t i = 0; i < pulled.size(); ++i)
             if (pulled[i] > 0) pull(pair, problem.contacts[first + i], pulled[i], kick);
     }
+    rigid.pose(scene, free_, problem, pulls, kick, recovery, moved);
     if (!pulls.contacts.empty()) pulls.bodies = problem.bodies;
-    rigid.pose(scene, free_, problem, kick, recovery, moved);
     deepest = std::max(deepest, rigid.deepest());
 }
 

@@ -28,8 +28,9 @@ public:
                     (Real, adhesion, 0, Attr::readonly, "Tension of adhesion [Pa]."))(
                     (Real, adhesionRange, 0, Attr::readonly, "Gap up to which it acts [m]."))(
                     (bool, adhesionReversible, true, Attr::readonly, "Surfaces that have come apart attract each other again."))(
-                    (vector<int>, held, , Attr::readonly, "Irreversible adhesion: surface points that it holds."))(
-                    (vector<int>, parted, , Attr::readonly, "Irreversible adhesion: surface points that have come apart.")),
+                    (vector<int>, held, , Attr::readonly, "Irreversible adhesion: surface points that it holds; of two rigid bodies [0] or []."))(
+                    (vector<int>, parted, , Attr::readonly, "Irreversible adhesion: surface points that have come apart."))(
+                    (Real, pull, 0, Attr::readonly, "Force of adhesion between two rigid bodies in the last step, in normalForce too [N/m].")),
             createIndex(););
     REGISTER_CLASS_INDEX(SoftPhys, FrictPhys);
 };

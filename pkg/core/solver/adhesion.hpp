@@ -4,6 +4,9 @@
 #include "contact/narrow_phase.hpp"
 #include "solver/contact_problem.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace softgrain {
 
 /// Surface points of a pair that its adhesion holds, and those that it has let go of for good; ascending.
@@ -34,6 +37,13 @@ template <int Dim> struct Adhesion {
 /// normal [m]: half of the way to each neighbour, or, where that is out of range, the way up to there. So the sum over all
 /// points does not jump as one of them leaves. What a corner turns away from the face does not count.
 template <int Dim> double width_within(double range, const ContactPoint<Dim>& point, const Surface<Dim>& surface);
+
+/// The same of two round bodies as a whole, the middle of whose contact has this gap: nearer than `range` their arcs, taken as
+/// parabolas, are over this width [m]. `radius`: 1 over the sum of their curvatures [m].
+inline double width_within(double range, double gap, double radius)
+{
+    return gap < range ? std::sqrt(8 * radius * (range - std::max(0.0, gap))) : 0;
+}
 
 /// Brings impulses of contacts that are known beforehand to the velocities of the bodies.
 template <int Dim> void give(const ContactProblem<Dim>& known);

@@ -22,6 +22,10 @@ template <int Dim> Vec<Dim> cone_projection(const Vec<Dim>& r, const Vec<Dim>& n
     return kept * n + (size > 0 ? mu * kept / size : 0) * tangential;
 }
 
+/// What a gap [m] adds to the relative velocity along the normal [m/s]: all of it may close in the step; of a penetration the share
+/// `recovery` is taken back.
+inline double gap_speed(double gap, double recovery, double dt) { return (gap > 0 ? gap : recovery * gap) / dt; }
+
 template <int Dim> struct Contact {
     int body;  ///< that the point is on, place in ContactProblem::bodies
     int other; ///< that the face is on; -1: a rigid plane
