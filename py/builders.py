@@ -172,8 +172,9 @@ def softEngines(gravity=(0, 0, 0), dt=None, safety=None, tolerance=None, maxSwee
     friction      Coulomb's coefficient between grains [-]; None: from the materials' frictionAngle
     wallFriction  the same between grains and other bodies
     restitution   coefficient of Newton's law of impact, normal or (normal, tangential) [-]; None: 0 (explicit alone; what it
-                  means for soft grains: doc/theory.md, section 5)
-    adhesion      (tension [Pa], range [m]): surfaces nearer than the range attract each other; None: not (explicit alone)
+                  means for soft grains: doc/theory.md, section 5); of rigid bodies among each other too, by rigidContacts()
+    adhesion      (tension [Pa], range [m]): surfaces nearer than the range attract each other; None: not (explicit alone); of
+                  rigid bodies among each other too, by rigidContacts(): as a whole, up to a range of a tenth of the smaller radius
     reversible    of adhesion; False: surfaces that have come apart attract each other no more
                   Each number of restitution and adhesion may be a MatchMaker of materials, that says it pair by pair
     damping       numerical, of the grains, for relaxation: see SoftIntegrator.damping (explicit alone)
@@ -270,7 +271,8 @@ def _below_one(name, value, usual):
 def rigidContacts(friction=None):
     """Functors for contacts of rigid bodies among each other by Contact Dynamics: softEngines(functors=rigidContacts()), with
     soft grains or without any (give softEngines a dt then). Spheres, as discs in the xy-plane, meet spheres, walls, boxes
-    and facets; clumps of spheres count as bodies.
+    and facets; clumps of spheres count as bodies. Facets are found when they are touched, all others before. Restitution and adhesion
+are those of softEngines.
 
     friction  Coulomb's coefficient [-]; None: from the materials' frictionAngle, the smaller of two, as YADE does
     Raises InputError, one sentence, on a value that makes no sense.

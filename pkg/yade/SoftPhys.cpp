@@ -15,6 +15,7 @@ bool SoftPhys::remembers()
     held.clear();
     parted = bonds.parted;
     normalForce = shearForce = contactPoint = Vector3r::Zero();
+    pull = 0;
     return true;
 }
 
