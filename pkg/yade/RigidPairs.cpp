@@ -77,6 +77,15 @@ namespace {
         return phys.adhesion * softgrain::width_within(phys.adhesionRange, gap, radius);
     }
 
+    /// Of the last step, without adhesion, on the contact's point: where the solver starts.
+    softgrain::Vec<2> forceBefore(const RigidPair& pair, const softgrain::Vec<2>& normal)
+    {
+        constexpr Real roundOff = 1e-12;
+        const Real sign = normal.dot(pair.geom->normal.head<2>()), pull = pair.effects ? pair.effects->pull : 0;
+        const softgrain::Vec<2> force = sign * (pair.phys->normalForce + pair.phys->shearForce).head<2>() + pull * normal;
+        return force.norm() > roundOff * pull ? force : softgrain::Vec<2>(0, 0);
+    }
+
     /// Newton's law of impact; the contact's impulse is the one of the last step.
     void rebound(const softgrain::ContactProblem<2>& problem, const SoftPhys& phys, softgrain::Contact<2>& contact)
     {
@@ -100,11 +109,10 @@ void RigidPairs::pose(const Scene& scene, FreeBodies& free, softgrain::ContactPr
         softgrain::Contact<2> contact = contactOf(pair, scene, free, problem, moved);
         contact_.push_back(contact.body < 0 ? -1 : int(problem.contacts.size()));
         if (contact_.back() < 0) continue;
-        const Real gap = -pair.geom->penetrationDepth, sign = contact.normal.dot(pair.geom->normal.head<2>());
+        const Real gap = -pair.geom->penetrationDepth;
         deepest_ = std::max(deepest_, -gap / std::min(pair.geom->refR1, pair.geom->refR2));
         contact.offset = softgrain::gap_speed(gap, recovery, scene.dt) * contact.normal;
-        contact.impulse = sign * kick * (pair.phys->normalForce + pair.phys->shearForce).head<2>();
-        if (pair.effects && pair.effects->pull > 0) contact.impulse += kick * pair.effects->pull * contact.normal;
+        contact.impulse = kick * forceBefore(pair, contact.normal);
         if (pair.effects && pair.effects->rebounds()) rebound(problem, *pair.effects, contact);
         problem.contacts.push_back(contact);
         if (!pair.effects || !pair.effects->adheres()) continue;

@@ -172,6 +172,26 @@ def work_of_adhesion(checks):
                     body.state.vel[1])
 
 
+def what_sticks_rebounds_too(checks):
+    """A disc drawn to a fixed one strikes it faster, rebounds with e, and is slowed down by the same work; in any direction."""
+    for angle in (0.0, 1.0, 2.5):
+        start()
+        way = Vector3(math.cos(angle), math.sin(angle), 0)
+        far = 2 * R + 1.5 * RANGE
+        fixed, body = disc(0, 0), disc(far * way[0], far * way[1])
+        fixed.state.blockedDOFs = "xyzXYZ"
+        e, gained = 0.8, 2 / body.state.mass * TENSION * 2 / 3 * math.sqrt(8 * reduced(R, R)) * RANGE**1.5
+        speed = math.sqrt(4 * gained)
+        body.state.vel = -speed * way
+        use(adhesion=(TENSION, RANGE), restitution=e, dt=2e-6)
+        for _ in range(40000):
+            O.step()
+            if body.state.vel.dot(way) > 0 and body.state.pos.dot(way) > far:
+                break
+        checks.close_to(f"speed after, towards {angle}", (body.state.vel.dot(way) / speed)**2, e**2 * 1.25 - 0.25,
+                        6 * 2e-6 * speed / RANGE)
+
+
 def friction_bears_under_tension(checks):
     """An upright load below mu times the adhesion does not move a disc that cannot turn along a wall."""
     for share in (0.9, 1.1):
@@ -264,5 +284,5 @@ def walls_are_seen_ahead(checks):
 
 
 run_tests(a_disc_bounces_to_e_squared, two_discs_meet_by_newtons_law, a_cradle_passes_it_on, a_slide_turns_around, rest_is_not_kicked,
-          adhesion_holds_up_to_its_force, work_of_adhesion, friction_bears_under_tension, energy_is_accounted_for, pairs_of_materials,
+          adhesion_holds_up_to_its_force, work_of_adhesion, what_sticks_rebounds_too, friction_bears_under_tension, energy_is_accounted_for, pairs_of_materials,
           saved, mistakes_get_one_sentence, walls_are_seen_ahead)
