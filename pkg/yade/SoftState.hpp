@@ -13,7 +13,7 @@ namespace yade {
 
 class SoftState : public State {
 public:
-    static constexpr int currentFormat = 5; ///< of the saved fields
+    static constexpr int currentFormat = 6; ///< of the saved fields
     softgrain::Grain<2> grain;
     bool justPlaced = false; ///< by the user, not loaded: overlaps have still to be looked for
     Real insideUntil = 0;    ///< travel of its surface up to which its bound surely holds it [m]
@@ -26,7 +26,7 @@ public:
     bool outdated(const Body& body) const;
     /// Takes the body's material as it is now; the grain must not be in an assembly. Throws softgrain::UserError.
     void renew(const Body& body);
-    /// Copies the grain's rigid motion into pos, vel, ori, angVel; blocked velocities stay what they are asked to be.
+    /// Copies the grain's rigid motion and moment of inertia into pos, vel, ori, angVel, inertia; blocked velocities stay what they are asked to be.
     void publish();
     /// A velocity was set by hand since publish().
     bool touched() const { return asked.vel != published.vel || asked.angVel != published.angVel; }
@@ -142,7 +142,7 @@ public:
                             "inertia",
                             &SoftState::inertiaAsSet,
                             &SoftState::setInertia,
-                            "Moment of inertia about the centre of mass, undeformed [kg m]; follows from shape and density once the grain runs.")
+                            "Moment of inertia about the centre of mass, of the grain as it is deformed [kg m]; follows from shape and density once the grain runs.")
                     .add_property("se3", &SoftState::placement, &SoftState::setPlacement, "pos and ori.")
                     .add_property(
                             "vel",

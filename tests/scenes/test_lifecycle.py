@@ -347,7 +347,7 @@ def saved_by_another_version(checks):
         with open(path, encoding="utf-8") as file:
             text = file.read()
         for what, pattern, replacement, words in (
-                ("another format", "<format>5</format>", "<format>6</format>", ["#0", "format 6", "version"]),
+                ("another format", "<format>6</format>", "<format>7</format>", ["#0", "format 7", "version"]),
                 ("another number of points", "<points>60</points>", "<points>124</points>", ["#0", "version"])):
             changed, count = re.subn(pattern, replacement, text)
             checks.that(f"{what}: the file is changed", count == 2, count)
