@@ -12,6 +12,11 @@ def points(body):
     return _array(_state(body).pointPositions(), 2)
 
 
+def pointReferences(body):
+    """Positions of the material points as the grain was placed, before it moved and deformed [m], shape (points, 2)."""
+    return _array(_state(body).pointReferences(), 2)
+
+
 def pointVelocities(body):
     """Velocities of the material points [m/s], shape (points, 2)."""
     return _array(_state(body).pointVelocities(), 2)

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene that runs through windows of time, a row of the csv for each: the loop of heavy_ball.py, funnel.py and drum.py."""
-import math
-
 import numpy
-import yade.wrapper as wrapper
 from yade import O
-from yade.minieigenHP import Vector3
 
-from . import arrays, measures
+from . import shots
 
 
 class Timed:
@@ -18,7 +14,7 @@ class Timed:
     duration  of all windows [s]; count: how many
     row       function that returns the row of the window that has just ended, from its length [s]
     text      function that tells the state in a few words
-    shots     numbers of windows after which a snapshot is taken; snapshots are snapshot_1.npz and so on
+    shots     numbers of windows after which a shot is taken; shots are snapshot_1.npz and so on
     """
 
     def __init__(self, run, begin, duration, count, row, text, shots):
@@ -42,6 +38,7 @@ class Timed:
                     start = O.time
                     self._until(self.begin + self.duration * (memory["window"] + 1) / self.count)
                     self.run.table.append(self.row(O.time - start))
+                    self.run.frame()
                 memory["window"] += 1
                 if memory["window"] in self.shots:
                     self._take(self.shots.index(memory["window"]) + 1)
@@ -56,33 +53,4 @@ class Timed:
                     self.run.stop()
 
     def _take(self, number):
-        numpy.savez_compressed(self.run.path(f"snapshot_{number}.npz"), time=O.time - self.begin, **snapshot())
-
-
-def snapshot():
-    """What the scene shows now, in the form that figure1.py draws: soft grains with their points and von Mises stresses, spheres,
-    boxes and facets as rigid outlines [m]."""
-    soft = measures.softBodies()
-    outlines, points = [arrays.outline(body) for body in soft], [arrays.points(body) for body in soft]
-    rigid = [outline for outline in map(_rigid_outline, O.bodies) if outline is not None]
-    return {"outlines": numpy.concatenate(outlines), "outline_sizes": numpy.array([len(o) for o in outlines]),
-            "points": numpy.concatenate(points), "point_sizes": numpy.array([len(p) for p in points]),
-            "von_mises_Pa": numpy.concatenate([arrays.vonMisesStresses(body) for body in soft]),
-            "rigid_outlines": numpy.concatenate(rigid) if rigid else numpy.empty((0, 2)),
-            "rigid_sizes": numpy.array([len(o) for o in rigid], dtype=int)}
-
-
-def _rigid_outline(body):
-    """Corners of a rigid body in the plane [m]; None for others."""
-    if isinstance(body.shape, wrapper.Sphere):
-        turn = numpy.linspace(0, 2 * math.pi, 64, endpoint=False)
-        local = body.shape.radius * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), 0 * turn])
-    elif isinstance(body.shape, wrapper.Facet):
-        local = numpy.array(body.shape.vertices)
-    elif isinstance(body.shape, wrapper.Box):
-        x, y = body.shape.extents[0], body.shape.extents[1]
-        local = numpy.array([(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)])
-    else:
-        return None
-    turned = numpy.array([body.state.ori * Vector3(*map(float, corner)) for corner in local])
-    return turned[:, :2] + numpy.array(body.state.pos)[:2]
+        shots.save(self.run.path(f"snapshot_{number}.npz"), {**shots.take(), "time": numpy.float64(O.time - self.begin)})

@@ -287,6 +287,13 @@ void SoftState::preSave(SoftState&)
 }
 
 boost::python::object SoftState::pointPositions() { return flattened(current().point_positions()); }
+boost::python::object SoftState::pointReferences()
+{
+    std::vector<softgrain::Vec<2>> places = current().mesh->point_position;
+    for (auto& place : places)
+        place = (refPos + refOri * Vector3r(grain.radius * place[0], grain.radius * place[1], 0)).head<2>();
+    return flattened(places);
+}
 boost::python::object SoftState::pointVelocities() { return flattened(current().point_velocities()); }
 boost::python::object SoftState::deformationGradients() { return flattened(current().deformation_gradients()); }
 boost::python::object SoftState::cauchyStress() { return flattened(current().cauchy_stresses()); }

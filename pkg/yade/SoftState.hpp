@@ -63,6 +63,7 @@ public:
     }
 
     boost::python::object pointPositions();
+    boost::python::object pointReferences();
     boost::python::object pointVelocities();
     boost::python::object pointVolumes();
     boost::python::object deformationGradients();
@@ -111,6 +112,7 @@ public:
                     (int, format, currentFormat, Attr::hidden, "Version of the saved fields [-].")),
             createIndex(),
             .def("pointPositions", &SoftState::pointPositions, "Current positions of the material points, (points, 2) [m].")
+                    .def("pointReferences", &SoftState::pointReferences, "Positions of the material points as the grain was placed, (points, 2) [m].")
                     .def("pointVelocities", &SoftState::pointVelocities, "Velocities of the material points, (points, 2) [m/s].")
                     .def("pointVolumes", &SoftState::pointVolumes, "Reference areas of the material points, (points,) [m²].")
                     .def("deformationGradients", &SoftState::deformationGradients, "F at the material points, (points, 2, 2) [-].")
