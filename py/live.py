@@ -127,4 +127,4 @@ def box_text():
     if measures.softBodies():
         solid += measures.softIntegrator().solidArea()
     stress = sum(measures.wallStress(wall.id, axis, length[1 - axis]) for axis, pair in walls.items() for wall in pair) / 4
-    return f"strain {math.log(area0 / area):.3f}  phi {solid / area:.3f}  {stress / 1e3:.1f} kPa"
+    return f"strain {math.log(area0 / area):.3f}  phi {solid / area:.3f}  {stress / 1e3:.4g} kPa"

@@ -148,4 +148,4 @@ class Press:
         memory = self.memory
         strain = memory["window"] * OUTPUT_STRAIN
         count = f"{memory['coordination']:.2f}" if memory["coordination"] == memory["coordination"] else "-"
-        return f"strain {strain:.3f}  phi {memory['fraction']:.3f}  {memory['stress'] / 1e3:.1f} kPa  Z {count}"
+        return f"strain {strain:.3f}  phi {memory['fraction']:.3f}  {memory['stress'] / 1e3:.4g} kPa  Z {count}"

@@ -189,7 +189,7 @@ def progress_on_a_terminal(checks):
         for what, pattern in (("a bar", r"\[#+-+\] +\d+ %"), ("time", r"\d+ s to go"), ("steps a second", r"\d+ steps/s"),
                               ("strain", r"strain 0\.\d+"), ("solid fraction", r"phi 0\.\d+"), ("stress", r"[\d.]+ kPa")):
             checks.that(f"progress shows {what}", re.search(pattern, shown), shown[-600:])
-        lines = [line for line in re.split("\r\x1b\\[K|\n", shown) if " %  " in line]
+        lines = [line.rstrip() for line in re.split("\r\x1b\\[K|\n", shown) if " %  " in line]
         checks.that("a line is no longer than the terminal", max(map(len, lines)) < 80, max(lines, key=len))
         shares = [int(re.search(r"(\d+) %", line).group(1)) for line in lines]
         checks.that("the share grows", shares == sorted(shares) and shares[-1] > shares[0], shares)
