@@ -9,7 +9,7 @@ from . import shots
 class Timed:
     """Runs a scene that stands ready, or was loaded.
 
-    run       of runs.py; run.memory["window"] counts the windows that are done
+    run       of runs.py; run.memory["window"] counts the windows that are done, ["start"] is when the present one began [s]
     begin     time at which the first window begins [s]; before, nothing is recorded
     duration  of all windows [s]; count: how many
     row       function that returns the row of the window that has just ended, from its length [s]
@@ -35,22 +35,22 @@ class Timed:
                     self._until(self.begin)
                     released()
                 else:
-                    start = O.time
                     self._until(self.begin + self.duration * (memory["window"] + 1) / self.count)
-                    self.run.table.append(self.row(O.time - start))
+                    self.run.table.append(self.row(O.time - memory["start"]))
                     self.run.frame()
                 memory["window"] += 1
+                memory["start"] = O.time
                 if memory["window"] in self.shots:
                     self._take(self.shots.index(memory["window"]) + 1)
                 self.run.checkpoint_if_due()
 
     def _until(self, time):
         while O.time < time:
-            O.step()
             if O.iter % 200 == 0:
                 self.run.progress.show(O.time / (self.begin + self.duration), self.text())
-                if self.run.interrupted():
+                if self.run.interrupted():      # with a step to go, since what is known of the last one is not saved
                     self.run.stop()
+            O.step()
 
     def _take(self, number):
         shots.save(self.run.path(f"snapshot_{number}.npz"), {**shots.take(), "time": numpy.float64(O.time - self.begin)})
