@@ -232,18 +232,23 @@ class Look:
         """Chooses colours, and the force of a thick line, for these shots."""
         from matplotlib import cm, colors
 
-        forces = numpy.concatenate([shot["contact_forces"] for shot in shots])
-        self.force = round_up(numpy.percentile(forces, 95)) if self.contacts and len(forces) else 0.0
+        forces = [shot["contact_forces"] for shot in shots if len(shot["contact_forces"])]
+        self.force = round_up(max(numpy.percentile(part, 95) for part in forces)) if self.contacts and forces else 0.0
         known = [self._number(shot) for shot in shots]
-        if None in known or not any(shot["values"].size for shot in shots):
+        if None in known:
             return
-        values = numpy.concatenate([shot["values"][number] for number, shot in zip(known, shots)])
-        low, high = self._limits(values[numpy.isfinite(values)], str(shots[0]["units"][known[0]]))
-        self.counts = not numpy.any(values % 1)
-        unit, self.factor = _unit(str(shots[0]["units"][known[0]]), max(abs(low), abs(high)))
+        values = [shot["values"][number] for number, shot in zip(known, shots)]
+        values = [part[numpy.isfinite(part)] for part in values]
+        values = [part for part in values if len(part)]
+        if not values:
+            return
+        unit = str(shots[0]["units"][known[0]])
+        low, high = self._limits(values, unit)
+        self.counts = not any(numpy.any(part % 1) for part in values)
+        unit, self.factor = _unit(unit, max(abs(low), abs(high)))
         self.label = f"{shots[0]['labels'][known[0]]}{f'  [{unit}]' if unit else ''}"
         self.extend = {(False, False): "neither", (False, True): "max", (True, False): "min", (True, True): "both"}[
-            bool(numpy.nanmin(values) < low), bool(numpy.nanmax(values) > high)]
+            bool(min(part.min() for part in values) < low), bool(max(part.max() for part in values) > high)]
         bounds = low * self.factor, high * self.factor
         norm = colors.PowerNorm(0.5, *bounds) if self.scale == "root" else colors.Normalize(*bounds)
         try:
@@ -252,17 +257,18 @@ class Look:
             raise InputError(f"colormap '{self.colormap}' is none of matplotlib's: give 'viridis' or 'cividis'.") from None
 
     def _limits(self, values, unit):
+        """Of the colours, for the values of each shot."""
         if self.limits is not None:
             try:
                 low, high = map(float, self.limits)
             except (TypeError, ValueError):
                 low = high = 0.0
-            if not low < high:
-                raise InputError(f"limits is {self.limits!r}: give (lowest, highest) value of the colours.")
+            if not low < high or self.scale == "root" and low < 0:
+                raise InputError(f"limits is {self.limits!r}: give (lowest, highest) value of the colours"
+                                 f"{', not below 0 with the scale root' if self.scale == 'root' else ''}.")
             return low, high
-        if not len(values):
-            return 0.0, 1.0
-        low, high = numpy.percentile(values, [100 - SPREAD, SPREAD])
+        low = min(numpy.percentile(part, 100 - SPREAD) for part in values)
+        high = max(numpy.percentile(part, SPREAD) for part in values)
         noise, magnitude = NOISE.get(unit, 1e-12), unit not in ("-", "")
         if magnitude:
             high = round_up(high) if high > noise else 0.0
