@@ -84,7 +84,8 @@ class Parser(argparse.ArgumentParser):
 
 
 class Options(argparse.Namespace):
-    """What the command line says."""
+    """What the command line says, whose words are `words`."""
+    words = ()
 
     def set_quick(self, values):
         """With --quick, takes these values for options that the command line does not hold."""
