@@ -79,6 +79,7 @@ def tick(path, seconds):
     """What the engine of checkpoints() does at the beginning of a step."""
     global _path
     _path = path
+    _require_first()
     wanted = live.asked(signal.SIGUSR1)
     if wanted or time.monotonic() - _last.setdefault(path, time.monotonic()) > seconds:
         save(path, seconds)
@@ -104,6 +105,17 @@ def versions():
 def named(known):
     """The versions in words, for messages."""
     return " under ".join(f"{name} {known.get(name, '?') if isinstance(known, dict) else '?'}" for name in SAVED_BY)
+
+
+def _require_first():
+    """InputError where the engine of checkpoints() stands in the middle of a step."""
+    for engine in O.engines:
+        command = getattr(engine, "command", None)
+        if command is None:
+            raise InputError(f"checkpoints() stands behind {type(engine).__name__} in O.engines, in the middle of a step: put it first, as in "
+                             "O.engines = [checkpoints('packing'), *softEngines()].")
+        if TICK in command:
+            return
 
 
 def _command(path, seconds):

@@ -181,6 +181,13 @@ def damaged_and_foreign_checkpoints(checks):
             O.reset()
 
 
+def an_engine_in_the_middle_of_a_step_is_refused(checks):
+    with Folder() as folder:
+        write_scene(folder, "O.engines = softEngines(more=[checkpoints('packing', seconds=0.05)])")
+        told = digits_of(start(folder))
+        checks.that("checkpoints() behind others", "behind ForceResetter" in told and "[checkpoints('packing'), *softEngines()]" in told, told)
+
+
 def progress_on_a_terminal(checks):
     engines = "O.engines = softEngines(more=[progress(show=SHOW, seconds=0.1)])\n    O.stopAtIter = 9000"
     with Folder() as folder:
@@ -268,4 +275,4 @@ def nothing_is_taken_from_another_owner(checks):
 
 print(f"seed {SEED}")
 run_tests(ctrl_c_stops_after_the_step, killed_and_resumed_to_the_last_digit, a_signal_asks_for_a_checkpoint, damaged_and_foreign_checkpoints,
-          progress_on_a_terminal, plots_live, nothing_is_taken_from_another_owner)
+          an_engine_in_the_middle_of_a_step_is_refused, progress_on_a_terminal, plots_live, nothing_is_taken_from_another_owner)
