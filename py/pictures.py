@@ -14,7 +14,7 @@ from .records import replacing
 GRAIN, EDGE, WALL, RIGID, CONTACT = "0.9", "0.15", "0.1", "0.6", "black"
 SCALES = ("linear", "root")
 WIDTH = 6.0         # of a picture [inches]
-BESIDE, ABOVE = 1.5, 0.75      # room for bar and labels, for title and labels [inches]
+BESIDE, ABOVE = (0.6, 1.4), 1.0     # room for labels without and with a bar of colours, for title and labels [inches]
 LEAST_HEIGHT, MOST_HEIGHT = 2.0, 2.5    # of a picture [inches], [its width]
 MARGIN = 0.02       # around what is drawn [longer side]
 SMOOTH = 72         # corners that a rounded outline is drawn with, at least
@@ -131,7 +131,8 @@ def row(shots, titles, look, width, common=None, within=None):
 
     view = View(common or shots)
     look.colours_of(common or shots)
-    height = view.height((width - BESIDE) / len(shots)) + ABOVE
+    # no less, or matplotlib's layout, which knows nothing of equal scales, cuts the title off
+    height = view.height((width - BESIDE[look.colours is not None]) / len(shots)) + ABOVE
     figure = within or Figure(figsize=(width, min(max(height, LEAST_HEIGHT), MOST_HEIGHT * width)), layout="constrained")
     panels = figure.subplots(1, len(shots), sharey=True, squeeze=False)[0]
     for axes, shot, title in zip(panels, shots, titles):
