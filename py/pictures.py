@@ -183,12 +183,13 @@ class View:
         self.unit, self.factor = next((unit, factor) for unit, factor, least in (("m", 1, 2), ("mm", 1e3, 2e-3), ("µm", 1e6, 0))
                                       if longer >= least)
         self.margin = MARGIN * longer
-        self.seconds = _unit("s", max(abs(float(shot["time"])) for shot in shots))
+        self.latest = max(abs(float(shot["time"])) for shot in shots)
 
     def time(self, shot):
-        """Of a shot in words."""
-        unit, factor = self.seconds
-        return f"t = {float(shot['time']) * factor:.4g} {unit}"
+        """Of a shot in words, all in one unit and with the decimals of the latest."""
+        unit, factor = _unit("s", self.latest)
+        decimals = 3 - int(numpy.floor(numpy.log10(self.latest * factor))) if self.latest > 0 else 0
+        return f"t = {float(shot['time']) * factor:.{max(decimals, 0)}f} {unit}"
 
     @staticmethod
     def grain_width(shot):
