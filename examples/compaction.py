@@ -36,6 +36,7 @@ def read_options():
     opt.add_material(parser)
     opt.add_method(parser)
     parser.add_management()
+    parser.add_movie()
     options = parser.read()
     options.set_quick(QUICK)
     opt.choose_by_accuracy(options)

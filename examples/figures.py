@@ -14,18 +14,15 @@ A small picture of a packing before and after, for a page:
     python3 examples/figures.py nh --picture packing.png
 
 The curves of all folders share the figures, figure 1 is of the first folder; without --out the figures go there. Works
-without YADE, hence finds softgrain's file without importing the package, which would ask for YADE.
+without YADE.
 """
 import importlib.util
-import os
-import runpy
 import sys
 
-package = importlib.util.find_spec("softgrain")
-if package is None:
+if importlib.util.find_spec("softgrain") is None:
     sys.exit("figures.py: softgrain is not installed for this python3: install it, or set PYTHONPATH to where it lies.")
 if importlib.util.find_spec("matplotlib") is None:
     sys.exit(f"figures.py: {sys.executable} has no matplotlib: use /usr/bin/python3 with the package python3-matplotlib.")
-folder = package.submodule_search_locations[0]
-sys.path.insert(0, folder)
-runpy.run_path(os.path.join(folder, "figures.py"), run_name="__main__")
+from softgrain import figures  # noqa: E402
+
+sys.exit(figures.main())

@@ -39,6 +39,7 @@ def read_options():
     opt.add_gel(group, viscosity=1.0, friction=0.2, points=276)
     opt.add_quick(group, "coarse and fast:", QUICK)
     parser.add_management()
+    parser.add_movie()
     options = parser.read()
     options.set_quick(QUICK)
     if not options.opening < 1:

@@ -40,6 +40,7 @@ def read_options():
     group.add_argument("--seed", type=opt.seed, default=1, metavar="N", help="of the grains")
     opt.add_quick(group, "small and short:", QUICK)
     parser.add_management()
+    parser.add_movie()
     options = parser.read()
     options.set_quick(QUICK)
     return options

@@ -47,6 +47,7 @@ def read_options():
     scene.add_argument("--dt", type=opt.positive, default=None, metavar="S",
                        help="time step; None: chosen automatically")
     parser.add_management()
+    parser.add_movie()
     options = parser.read()
     options.set_quick(QUICK)
     opt.refuse_nothing_to_press(options)

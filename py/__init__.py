@@ -2,26 +2,27 @@
 """Soft grains for YADE: Material Point Method inside the grains, Contact Dynamics between them.
 
 A scene says `from softgrain import *` and has the classes of the plugin (NeoHookeanMat, SoftGrain, SoftIntegrator...),
-the builders (softDisc, softPolygon, softCloud, softBox, rigidDisc, softEngines), and the modules arrays (what a grain holds, as
-numpy arrays), measures and stresses (of a running scene) and fclib (its contact problems, for other solvers)."""
+the builders (softDisc, softPolygon, softCloud, softBox, rigidDisc, softEngines), pictures (snapshot, movie), what long runs want
+(progress, checkpoints, resume, save_run, load_run), and the modules arrays (what a grain holds, as numpy arrays), measures and
+stresses (of a running scene) and fclib (its contact problems, for other solvers).
+
+Outside of YADE, in any python3 with numpy, there are movie and load_run, which read what runs have written."""
 import sys
 
 from . import _guard
-_guard.check()
-from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
-import yade.wrapper  # noqa: E402
-
-from . import arrays, fclib, measures, stresses  # noqa: E402
-from .builders import discCloud, rigidContacts, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
-from .checks import InputError  # noqa: E402
+from .checks import InputError
+from .data import load_run
+from .pictures import movie
 
 __version__ = "0.1.0"
 
-globals().update({name: getattr(yade.wrapper, name) for name in _softgrain.classes})
+_OF_SCENES = ["arrays", "checkpoints", "discCloud", "fclib", "measures", "progress", "resume", "rigidContacts", "rigidDisc", "save_run",
+              "snapshot", "softBox", "softCloud", "softDisc", "softEngines", "softPolygon", "stresses"]
+__all__ = ["InputError", "load_run", "movie", *_OF_SCENES]
 
 
 def _renew_dispatchers():
-    """The engines that YADE itself puts into O.engines are older than the classes registered above, and so are the
+    """The engines that YADE itself puts into O.engines are older than the classes of the plugin, and so are the
     tables by which they find the functor of a class: too short for a soft grain, which would end the process. Setting
     the functors anew renews the tables."""
     for engine in yade.wrapper.Omega().engines:
@@ -43,8 +44,27 @@ def _enter_windows():
         qt.controller.displayCombo.addItem("Gl1_SoftGrain")
 
 
-_renew_dispatchers()
-_enter_windows()
+if _guard.inside_yade():
+    _guard.check()
+    from . import _softgrain  # registers the classes in yade.wrapper
+    import yade.wrapper
 
-__all__ = [*_softgrain.classes, "InputError", "arrays", "discCloud", "fclib", "measures", "rigidContacts", "rigidDisc",
-           "softBox", "softCloud", "softDisc", "softEngines", "softPolygon", "stresses"]
+    from . import arrays, fclib, live, measures, stresses
+    from .builders import discCloud, rigidContacts, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon
+    from .data import save_run
+    from .live import progress
+    from .pictures import snapshot
+    from .restart import checkpoints, resume
+
+    globals().update({name: getattr(yade.wrapper, name) for name in _softgrain.classes})
+    __all__ += _softgrain.classes
+    _renew_dispatchers()
+    _enter_windows()
+    live.watch_for_interrupts()
+else:
+    def __getattr__(name):
+        """Says what is missing outside of YADE."""
+        if name in _OF_SCENES:
+            raise ImportError(f"softgrain.{name} works inside YADE only: import it in a script run by `yade script.py`. Elsewhere there are "
+                              "load_run and movie.")
+        raise AttributeError(f"module 'softgrain' has no attribute '{name}'")

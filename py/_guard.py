@@ -27,10 +27,13 @@ def objection(version, features, bits, expected=YADE_VERSION):
     return None
 
 
+def inside_yade():
+    """Whether this process is YADE."""
+    return "yade.wrapper" in sys.modules
+
+
 def check():
-    """Raises ImportError unless the plugin may be loaded into this process."""
-    if "yade.wrapper" not in sys.modules:
-        raise ImportError("softgrain works inside YADE only: import it in a script run by `yade script.py`.")
+    """Raises ImportError unless the plugin may be loaded into this YADE."""
     from yade import config
 
     sentence = objection(config.version, config.features, config.highPrecisionBits)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures 1 to 5 of Vu et al. 2017 (EPJ Web of Conferences 140, 15031) from folders of finished or unfinished runs.
 
-Needs numpy and matplotlib, not YADE: python3 figures.py DIR [DIR ...] [--out DIR] draws the curves of all folders
-together; figure 1 is of the first. Inside the package: softgrain.figures.draw(folders, out)."""
+Needs numpy and matplotlib, not YADE. softgrain.figures.draw(folders, out) draws the curves of all folders together; figure 1 is of
+the first."""
 import argparse
 import io
 import os
@@ -14,17 +14,13 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 
-if __package__:
-    from . import jamming
-    from .figure1 import draw_snapshots
-    from .records import read_json, read_table
-else:
-    import jamming
-    from figure1 import draw_snapshots
-    from records import read_json, read_table
+from . import jamming, pictures
+from .records import read_json, read_table, replacing
 
 # Okabe and Ito's colours, told apart by colour-blind readers; each curve has its own dash and marker too
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
+MOMENTS = (("start", "start"), ("jamming", "jamming"), ("end", "end"))    # of figure 1
+PANEL = 4.3         # width of a packing [inches]
 MARKERS = ("o", "s", "^", "D", "v", "P")
 STYLE = {"font.size": 11, "axes.labelsize": 12, "legend.fontsize": 10, "axes.grid": True, "grid.color": "0.9",
          "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
@@ -67,7 +63,7 @@ def draw(folders, out):
     _tell_apart(curves)
     written = []
     with plt.rc_context(STYLE):
-        for number, figure in ((1, draw_snapshots), (2, _volume_change), (3, _solid_fraction), (4, _stress),
+        for number, figure in ((1, snapshots), (2, _volume_change), (3, _solid_fraction), (4, _stress),
                                (5, _coordination)):
             drawn = figure(curves[0].folder) if number == 1 else figure(curves)
             if drawn is None:
@@ -79,10 +75,20 @@ def draw(folders, out):
 
 
 def save(figure, path):
-    """Writes a figure to a png file, in one stroke, and closes it."""
-    figure.savefig(path + ".part", format="png")
-    os.replace(path + ".part", path)
+    """Writes a figure to a file, in one stroke, and closes it."""
+    pictures.save(figure, path, None)
     plt.close(figure)
+
+
+def snapshots(folder, moments=MOMENTS, points=True):
+    """Figure 1, from snapshot_start.npz, _jamming, _end in the folder, those that are there; None without any. moments: which, as
+    (name, title); points: grains with their material points, else filled."""
+    taken = [(title, os.path.join(folder, f"snapshot_{name}.npz")) for name, title in moments]
+    taken = [(title, pictures.read([path])[0]) for title, path in taken if os.path.exists(path)]
+    if not taken:
+        return None
+    titles = [r"%s:  $\varepsilon$ = %.3f,  $\Phi$ = %.3f" % (title, shot["strain"], shot["solid_fraction"]) for title, shot in taken]
+    return pictures.row([shot for _, shot in taken], titles, pictures.Look(contacts=False, points=points, scale="root"), PANEL * len(taken))
 
 
 def draw_picture(folder, path):
@@ -91,14 +97,15 @@ def draw_picture(folder, path):
     from PIL import Image       # comes with matplotlib
 
     with plt.rc_context({**STYLE, "savefig.dpi": 110}):
-        drawn = draw_snapshots(folder, moments=(("start", "before"), ("end", "after")))
+        drawn = snapshots(folder, (("start", "before"), ("end", "after")), points=False)
         if drawn is None:
             raise ValueError(f"{folder} holds no snapshots: give the folder of a finished run of compaction.py.")
         content = io.BytesIO()
         drawn.savefig(content, format="png")
         plt.close(drawn)
-    Image.open(content).convert("RGB").quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(
-        path, format="png", optimize=True)      # a third of the size
+    small = Image.open(content).convert("RGB").quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    with replacing(path) as unfinished:
+        small.save(unfinished, format="png", optimize=True)      # a third of the size
 
 
 def _volume_change(curves):
@@ -234,7 +241,3 @@ def main():
         print(f"figures.py: {error}", file=sys.stderr)
         return 2
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

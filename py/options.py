@@ -7,13 +7,13 @@ import re
 import sys
 
 import yade.wrapper as wrapper
-from yade import O
+from yade import O, utils
 
 from . import measures, presets
 from .checks import InputError
 
 # Options that say how a run is managed, not what is computed: they may differ when a run is resumed.
-MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds", "at_once", "figures"}
+MANAGEMENT = {"out", "force", "resume", "threads", "until", "checkpoint_seconds", "at_once", "figures", "movie"}
 
 MOST_THREADS = 16    # a core
 STEPS_OF_AN_IMPLICIT_ONE = 300    # explicit steps that cost as much as an implicit one, about
@@ -45,9 +45,16 @@ class Parser(argparse.ArgumentParser):
         group.add_argument("--checkpoint-seconds", type=positive, default=20.0, metavar="S",
                            help="wall time between checkpoints [s]")
 
-    def read(self, words=None):
-        """The options, with `given`, the set of names that the command line holds, as a further attribute."""
+    def add_movie(self):
+        """--movie, of an example whose rows are moments of one scene."""
+        self.add_argument("--movie", type=frames, default=0, metavar="N", help="a movie with a frame every N rows; 0: none")
+
+    def read(self):
+        """The options, from the command line, or in yade-batch from a line of its table; with `given`, the set of names that are there,
+        and `words`, what it takes to run it again, as further attributes."""
+        words = self._of_batch() or sys.argv[1:]
         options = self.parse_args(words, Options())
+        options.words = [word for word in words if word not in ("--force", "--resume")]
         defaults = [(action, action.default) for action in self._actions]
         for action, _ in defaults:
             action.default = argparse.SUPPRESS
@@ -57,8 +64,28 @@ class Parser(argparse.ArgumentParser):
         return options
 
 
+    def _of_batch(self):
+        """The words of the line of a table that yade-batch has started this process for; None outside of a batch. A column is an option of
+        its name; commas part several values, * is the default, 1 and 0 are with and without a switch. The folder is named NAME-DESCRIPTION."""
+        if not utils.runningInBatch():
+            return None
+        file, _, line = os.environ["YADE_BATCH"].rpartition(":")
+        row = utils.TableParamReader(file).paramDict()[int(line)]
+        words = []
+        for column, value in row.items():
+            option = f"--{column.replace('_', '-')}"
+            if column == "description" or column.startswith("!") or value == "*":
+                continue
+            if getattr(self._option_string_actions.get(option), "nargs", None) == 0:
+                words += [option] if value != "0" else []
+            else:
+                words += [option, *value.split(",")]
+        return words if "out" in row else [*words, "--out", f"{self.name}-{row['description'].replace('/', '_')}"]
+
+
 class Options(argparse.Namespace):
-    """What the command line says."""
+    """What the command line says, whose words are `words`."""
+    words = ()
 
     def set_quick(self, values):
         """With --quick, takes these values for options that the command line does not hold."""
@@ -85,6 +112,7 @@ finite = _checked(float, "number", math.isfinite, "be finite")
 share = _checked(float, "number", lambda value: 0 <= value <= 1, "lie between 0 and 1")
 theta = _checked(float, "number", lambda value: 0.5 <= value <= 1, "lie between 0.5 and 1")
 count = _checked(int, "whole number", lambda value: value >= 1, "be 1 or more")
+frames = _checked(int, "whole number", lambda value: value >= 0, "be 0 or more")
 seed = _checked(int, "whole number", lambda value: value >= 0, "be 0 or more")
 threads = _checked(count, "whole number", lambda value: value <= MOST_THREADS * os.cpu_count(),
                    f"be {MOST_THREADS * os.cpu_count()} or less on this machine of {os.cpu_count()} cores")

@@ -3,11 +3,10 @@
 that the same loop (press.py) drives and records them."""
 import math
 
-import numpy
 import yade.wrapper as wrapper
 from yade import O, utils
 
-from . import arrays, measures, summary
+from . import measures, summary
 
 
 class SoftPacking:
@@ -65,15 +64,6 @@ class SoftPacking:
         """Wall time by stage since the scene was made [s]."""
         return summary.stages()
 
-    def snapshot(self):
-        """What figure 1 shows: material points with fields, and the outlines; see figure1.py."""
-        outlines = [arrays.outline(body) for body in self.bodies]
-        points = [arrays.points(body) for body in self.bodies]
-        return {"points": numpy.concatenate(points), "point_sizes": numpy.array([len(p) for p in points]),
-                "von_mises_Pa": numpy.concatenate([arrays.vonMisesStresses(body) for body in self.bodies]),
-                "J": numpy.concatenate([arrays.volumeRatios(body) for body in self.bodies]),
-                "outlines": numpy.concatenate(outlines), "outline_sizes": numpy.array([len(o) for o in outlines])}
-
 
 class RigidPacking:
     """All spheres of the scene, taken as discs of unit thickness, with YADE's Cundall-Strack, which needs O.trackEnergy, or
@@ -121,10 +111,3 @@ class RigidPacking:
     def stage_seconds(self):
         """Empty: there is no SoftIntegrator."""
         return {}
-
-    def snapshot(self):
-        """What figure 1 shows: the outlines; see figure1.py."""
-        turn = numpy.linspace(0, 2 * math.pi, 48, endpoint=False)
-        circle = numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
-        outlines = [circle * radius + numpy.array(body.state.pos)[:2] for body, radius in zip(self.bodies, self.radii)]
-        return {"outlines": numpy.concatenate(outlines), "outline_sizes": numpy.full(len(outlines), len(circle))}

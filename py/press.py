@@ -10,7 +10,7 @@ import math
 import numpy
 from yade import O
 
-from . import jamming, measures
+from . import jamming, measures, shots
 from .stepping import WallForces
 
 OUTPUT_STRAIN = 0.004       # vertical strain between two rows [-]
@@ -64,6 +64,7 @@ class Press:
         window = self.memory["window"]
         self.forces.through_window(self._time_of(window), self._time_of(window + 1), self._instant)
         self._record()
+        self.run.frame()
         self.forces.remember()
 
     def _instant(self):
@@ -131,13 +132,11 @@ class Press:
         return energies["kinetic_J"] + energies["elastic_J"]
 
     def _take(self, name):
-        """Writes snapshot_NAME.npz: box, strain, solid fraction and what the packing shows."""
+        """Writes the shot snapshot_NAME.npz, with strain and solid fraction."""
         height, width = self.height(), self.box["width"]
-        content = {key: value.astype(numpy.float32) if value.dtype == float else value
-                   for key, value in self.packing.snapshot().items()}
-        numpy.savez_compressed(self.run.path(f"snapshot_{name}.npz"), width=width, height=height,
-                               strain=math.log(self.box["height"] / height),
-                               solid_fraction=self.packing.area() / (width * height), **content)
+        shots.save(self.run.path(f"snapshot_{name}.npz"),
+                   {**shots.take(["vonMises", "J"]), "strain": numpy.float64(math.log(self.box["height"] / height)),
+                    "solid_fraction": numpy.float64(self.packing.area() / (width * height))})
 
     def _share(self, until):
         """Of the way to this solid fraction, for the progress."""
@@ -149,5 +148,4 @@ class Press:
         memory = self.memory
         strain = memory["window"] * OUTPUT_STRAIN
         count = f"{memory['coordination']:.2f}" if memory["coordination"] == memory["coordination"] else "-"
-        return (f"strain {strain:.3f}  solid fraction {memory['fraction']:.3f}  "
-                f"stress {memory['stress'] / 1e3:.1f} kPa  Z {count}  step {memory['steps']}")
+        return f"strain {strain:.3f}  phi {memory['fraction']:.3f}  {memory['stress'] / 1e3:.4g} kPa  Z {count}"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The csv file of a run, written row by row so that nothing computed is lost, and files replaced in one stroke."""
+import contextlib
 import hashlib
 import json
 import math
@@ -67,6 +68,21 @@ def read_table(path):
     return Columns(path, {column: values[:, i] if len(values) else numpy.empty(0) for i, column in enumerate(columns)})
 
 
+def read_columns(path):
+    """A csv file as a dict from column to array, of float where all are numbers. Raises OSError, or ValueError, one sentence."""
+    import numpy
+
+    columns, rows = _read(path)
+    result = {}
+    for number, column in enumerate(columns):
+        words = numpy.array([row[number] for row in rows])
+        try:
+            result[column] = words.astype(float)
+        except ValueError:
+            result[column] = words
+    return result
+
+
 def read_rows(path):
     """The rows of a csv file as dicts; what is a number is a float."""
     def value(word):
@@ -100,12 +116,25 @@ def write_table(path, columns, rows):
 
 def replace_text(path, text):
     """Writes a file so that it is, at every moment, whole: the old one or the new one."""
-    unfinished = f"{path}.part"
-    with open(unfinished, "w", encoding="utf-8") as file:
+    with replacing(path) as unfinished, open(unfinished, "w", encoding="utf-8") as file:
         file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(unfinished, path)
+
+
+@contextlib.contextmanager
+def replacing(path):
+    """Gives the name of a file beside `path`, of the same ending, to be written inside of the block. At its end that takes the place of
+    `path` in one stroke; after an exception it is removed, and what was there before stays."""
+    stem, ending = os.path.splitext(path)
+    unfinished = f"{stem}.part{ending}"
+    try:
+        yield unfinished
+        with open(unfinished, "rb") as file:
+            os.fsync(file.fileno())
+        os.replace(unfinished, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(unfinished)
+        raise
 
 
 def write_json(path, content, nan=False):

@@ -16,16 +16,26 @@ def outline(body, height=0.0):
         off = height - body.state.pos[2]
         if abs(off) >= body.shape.radius:
             return None
-        turn = numpy.linspace(0, 2 * math.pi, CORNERS, endpoint=False)
-        local = math.sqrt(body.shape.radius**2 - off**2) * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), 0 * turn])
+        local = circle(math.sqrt(body.shape.radius**2 - off**2))
     elif isinstance(body.shape, wrapper.Box):
         x, y = body.shape.extents[0], body.shape.extents[1]
         local = numpy.array([(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)])
     elif isinstance(body.shape, wrapper.Facet):
-        return _cut(_placed(body, body.shape.vertices), height)
+        return _cut(placed(body, body.shape.vertices), height)
     else:
         return None
-    return _placed(body, local)[:, :2]
+    return placed(body, local)[:, :2]
+
+
+def circle(radius):
+    """Corners of a disc about the origin [m], shape (corners, 3)."""
+    turn = numpy.linspace(0, 2 * math.pi, CORNERS, endpoint=False)
+    return radius * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), 0 * turn])
+
+
+def placed(body, corners):
+    """Where corners in the frame of a body, shape (corners, 3), are now [m]."""
+    return numpy.array([body.state.pos + body.state.ori * Vector3(*map(float, corner)) for corner in corners])
 
 
 def wallLine(body, x, y):
@@ -37,11 +47,6 @@ def wallLine(body, x, y):
     ends = numpy.column_stack([x, y])
     ends[:, axis] = body.state.pos[axis]
     return ends
-
-
-def _placed(body, corners):
-    """Corners in the body's frame, in the world's [m], shape (corners, 3)."""
-    return numpy.array([body.state.pos + body.state.ori * Vector3(*map(float, corner)) for corner in corners])
 
 
 def _cut(corners, height):

@@ -12,16 +12,18 @@ import time
 
 from yade import O
 
-from . import summary as summaries
+from . import shots
 from .checks import InputError
 from .options import MANAGEMENT
 from .progress import Progress
+from .data import command_of
 from .records import Table, digest, read_json, sealed, write_json
+from .restart import named, versions
 
 MOST_CHECKPOINT_SHARE = 0.02    # of the wall time may go into checkpoints
-SAVED_BY = ("softgrain", "yade")    # versions that a checkpoint depends on
-CHECKPOINT = {"run", "scene", "rows", "digests", "versions", "parameters", "until", "memory", "cpu_s", "wall_s", "digest"}
-OWN_FILES = ("*.csv", "checkpoint*", "summary.json", "figure?.png", "snapshot_*.npz", "*.part")
+CHECKPOINT = {"run", "scene", "rows", "digests", "versions", "command", "parameters", "until", "memory", "cpu_s", "wall_s", "digest"}
+OWN_FILES = ("*.csv", "checkpoint*", "summary.json", "figure?.png", "snapshot_*.npz", "*.part", "*.part.*", "frames/*.npz",
+             "movie.*")
 
 
 class Interrupted(Exception):
@@ -41,8 +43,10 @@ class Run:
     def __init__(self, name, options, columns):
         self.name, self.options = name, options
         self.folder = os.path.abspath(options.out)
-        self.memory, self.resumed, self.progress = {}, False, Progress()
+        self.memory, self.resumed, self.progress = {}, False, Progress(steps=lambda: O.iter)
         self._signal, self._cpu_before, self._wall_before, stored = None, 0.0, 0.0, None
+        self._wanted = False
+        self.command = command_of([sys.argv[0], *options.words])
         self.table, self._columns = None, columns
         self._make_folder()
         if options.resume:
@@ -55,6 +59,7 @@ class Run:
         self._checkpoint_at, self._checkpoint_cost = self._wall_begin, 0.0
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self._on_signal)
+        signal.signal(signal.SIGUSR1, self._on_wish)
 
     def first_step(self):
         """The first step of a new run: what the engines then find wrong with the scene is bad input."""
@@ -93,15 +98,15 @@ class Run:
 
     def parameters(self):
         """The options that decide what is computed."""
-        return {key: value for key, value in vars(self.options).items() if key not in MANAGEMENT | {"given"}}
+        return {key: value for key, value in vars(self.options).items() if key not in MANAGEMENT | {"given", "words"}}
 
     def checkpoint(self):
         """Saves scene, memory and number of rows, in an order that leaves a whole checkpoint at every moment."""
-        began = time.monotonic()
+        began, self._wanted = time.monotonic(), False
         scene = self._save_scene()
         write_json(self.path("checkpoint.json"), sealed({
             "run": self.name, "scene": scene, "rows": self.table.rows, "digests": self._digests(scene, self.table.rows),
-            "versions": _versions(), "parameters": self.parameters(),
+            "versions": versions(), "command": self.command, "parameters": self.parameters(),
             "until": getattr(self.options, "until", None), "memory": self.memory, "cpu_s": self.cpu_seconds(),
             "wall_s": self.wall_seconds()}), nan=True)
         for old in glob.glob(self.path("checkpoint-*.yade")):
@@ -133,9 +138,10 @@ class Run:
                              "--force.") from None
 
     def checkpoint_if_due(self):
-        """After --checkpoint-seconds of wall time, later where checkpoints would take more than MOST_CHECKPOINT_SHARE."""
+        """After --checkpoint-seconds of wall time, later where checkpoints would take more than MOST_CHECKPOINT_SHARE; and when SIGUSR1 has
+        asked for one."""
         interval = max(self.options.checkpoint_seconds, self._checkpoint_cost / MOST_CHECKPOINT_SHARE)
-        if time.monotonic() - self._checkpoint_at > interval:
+        if self._wanted or time.monotonic() - self._checkpoint_at > interval:
             self.checkpoint()
 
     @contextlib.contextmanager
@@ -146,6 +152,13 @@ class Run:
         except RuntimeError:
             self.progress.end(f"stopped after {self.table.rows} rows, which are in {self.path(self.name)}.csv")
             raise
+
+    def frame(self):
+        """With --movie, a shot of the movie after every so many rows."""
+        every = getattr(self.options, "movie", 0)
+        if every and self.table.rows % every == 0:
+            os.makedirs(self.path("frames"), exist_ok=True)
+            shots.save(self.path(f"frames/{self.table.rows:06d}.npz"), shots.take())
 
     def stop(self):
         """Ends an interrupted run: checkpoint, then Interrupted with the sentence that says how to go on."""
@@ -198,9 +211,9 @@ class Run:
         if stored["run"] != self.name:
             raise InputError(f"the folder {self.options.out} holds a run of {stored['run']}.py, not of "
                              f"{self.name}.py: give another one with --out.")
-        if stored["versions"] != _versions():
-            raise InputError(f"the run in {self.options.out} was saved by {_named(stored['versions'])}, but this is "
-                             f"{_named(_versions())}: resume with the versions that saved it, or start anew with "
+        if stored["versions"] != versions():
+            raise InputError(f"the run in {self.options.out} was saved by {named(stored['versions'])}, but this is "
+                             f"{named(versions())}: resume with the versions that saved it, or start anew with "
                              "--force.")
         self._require_whole(stored)
         return stored
@@ -231,7 +244,7 @@ class Run:
             self.options.until = stored["until"]
         self._load_scene(stored)
         self._open_table(stored["rows"])
-        self.memory, self.resumed = stored["memory"], True
+        self.memory, self.resumed, self.command = stored["memory"], True, stored["command"]
         self._cpu_before, self._wall_before = stored["cpu_s"], stored["wall_s"]
         if os.path.exists(self.path("summary.json")):
             os.remove(self.path("summary.json"))
@@ -239,15 +252,8 @@ class Run:
     def _on_signal(self, number, _frame):
         self._signal = number
 
-
-def _versions():
-    """Versions on which a saved scene depends."""
-    return {name: version for name, version in summaries.versions().items() if name in SAVED_BY}
-
-
-def _named(versions):
-    """The versions in words, for messages."""
-    return " under ".join(f"{name} {versions.get(name, '?')}" for name in SAVED_BY)
+    def _on_wish(self, *_):
+        self._wanted = True
 
 
 def main(body):
@@ -279,6 +285,9 @@ def conclude(run, result, checks):
     failed = [what for what, holds in checks if not holds]
     result["checks"] = [{"check": what, "holds": bool(holds)} for what, holds in checks]
     run.finish(result)
+    if getattr(run.options, "movie", 0) and os.path.isdir(run.path("frames")):
+        from . import pictures
+        pictures.movie(run.path("frames"), run.path(pictures.movie_name()))
     if "strain" in run.table.columns and run.options.figures:
         from . import figures
         figures.draw([run.folder], run.folder)

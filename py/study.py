@@ -113,7 +113,8 @@ class Study(Run):
         folder = tempfile.mkdtemp(prefix="run-", dir=self.folder)
         command = [*opt.command_line()[:2], "-n", "-x", "-j1", "--", job.example, *map(str, job.arguments), "--out", folder]
         with open(os.path.join(folder, "said.txt"), "w", encoding="utf-8") as said:
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+            own = {name: value for name, value in os.environ.items() if name != "YADE_BATCH"}   # this process has read its line
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said, env=own)
         return job, process, folder
 
     def _record(self, job, process, folder):

@@ -20,7 +20,7 @@ def versions():
 
 def head(run):
     """How every summary begins: what was run with what."""
-    return {"example": run.name, "parameters": run.parameters(), "seed": getattr(run.options, "seed", None),
+    return {"example": run.name, "command": run.command, "parameters": run.parameters(), "seed": getattr(run.options, "seed", None),
             "until": getattr(run.options, "until", None), "versions": versions()}
 
 

@@ -3,18 +3,18 @@
 import numpy
 from yade import O
 
-from . import arrays, measures, rigid
+from . import shots
 
 
 class Timed:
     """Runs a scene that stands ready, or was loaded.
 
-    run       of runs.py; run.memory["window"] counts the windows that are done
+    run       of runs.py; run.memory["window"] counts the windows that are done, ["start"] is when the present one began [s]
     begin     time at which the first window begins [s]; before, nothing is recorded
     duration  of all windows [s]; count: how many
     row       function that returns the row of the window that has just ended, from its length [s]
     text      function that tells the state in a few words
-    shots     numbers of windows after which a snapshot is taken; snapshots are snapshot_1.npz and so on
+    shots     numbers of windows after which a shot is taken; shots are snapshot_1.npz and so on
     """
 
     def __init__(self, run, begin, duration, count, row, text, shots):
@@ -35,34 +35,22 @@ class Timed:
                     self._until(self.begin)
                     released()
                 else:
-                    start = O.time
                     self._until(self.begin + self.duration * (memory["window"] + 1) / self.count)
-                    self.run.table.append(self.row(O.time - start))
+                    self.run.table.append(self.row(O.time - memory["start"]))
+                    self.run.frame()
                 memory["window"] += 1
+                memory["start"] = O.time
                 if memory["window"] in self.shots:
                     self._take(self.shots.index(memory["window"]) + 1)
                 self.run.checkpoint_if_due()
 
     def _until(self, time):
         while O.time < time:
-            O.step()
             if O.iter % 200 == 0:
                 self.run.progress.show(O.time / (self.begin + self.duration), self.text())
-                if self.run.interrupted():
+                if self.run.interrupted():      # with a step to go, since what is known of the last one is not saved
                     self.run.stop()
+            O.step()
 
     def _take(self, number):
-        numpy.savez_compressed(self.run.path(f"snapshot_{number}.npz"), time=O.time - self.begin, **snapshot())
-
-
-def snapshot():
-    """What the scene shows now, in the form that figure1.py draws: soft grains with their points and von Mises stresses, spheres,
-    boxes and facets as rigid outlines [m]."""
-    soft = measures.softBodies()
-    outlines, points = [arrays.outline(body) for body in soft], [arrays.points(body) for body in soft]
-    bodies = [outline for outline in map(rigid.outline, O.bodies) if outline is not None]
-    return {"outlines": numpy.concatenate(outlines), "outline_sizes": numpy.array([len(o) for o in outlines]),
-            "points": numpy.concatenate(points), "point_sizes": numpy.array([len(p) for p in points]),
-            "von_mises_Pa": numpy.concatenate([arrays.vonMisesStresses(body) for body in soft]),
-            "rigid_outlines": numpy.concatenate(bodies) if bodies else numpy.empty((0, 2)),
-            "rigid_sizes": numpy.array([len(o) for o in bodies], dtype=int)}
+        shots.save(self.run.path(f"snapshot_{number}.npz"), {**shots.take(), "time": numpy.float64(O.time - self.begin)})

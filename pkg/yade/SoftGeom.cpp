@@ -20,7 +20,7 @@ void SoftGeom::preSave(SoftGeom&)
     for (int list : { 0, 1 })
         for (const auto& candidate : pair.memory.near[list]) {
             savedNear.insert(savedNear.end(), { list, candidate.point, candidate.face });
-            savedClear.insert(savedClear.end(), { candidate.place, candidate.clear_until });
+            savedClear.push_back(candidate.clear_until);
         }
     savedValid = pair.memory.valid_until;
     savedTravel = rigid.travel;
@@ -29,9 +29,9 @@ void SoftGeom::preSave(SoftGeom&)
 void SoftGeom::postLoad(SoftGeom&)
 {
     pair.memory = {};
-    for (size_t i = 0; 2 * i + 1 < savedClear.size() && 3 * i + 2 < savedNear.size(); ++i)
+    for (size_t i = 0; i < savedClear.size() && 3 * i + 2 < savedNear.size(); ++i)
         pair.memory.near[savedNear[3 * i] == 0 ? 0 : 1].push_back(
-            { savedNear[3 * i + 1], savedNear[3 * i + 2], savedClear[2 * i], savedClear[2 * i + 1] });
+            { savedNear[3 * i + 1], savedNear[3 * i + 2], savedClear[i] });
     pair.memory.valid_until = savedValid;
     rigid.travel = savedTravel;
     // which of the two lists is used shows at the next update; both start from the saved forces

@@ -33,7 +33,7 @@ public:
             "discs of equal area, both the grain's where the other body is rigid.",
             ((vector<int>, savedPoints, , Attr::hidden, "Surface point and side of each contact point, in pairs [-]."))(
                     (vector<int>, savedNear, , Attr::hidden, "List, surface point and face of each near point, in threes [-]."))(
-                    (vector<Real>, savedClear, , Attr::hidden, "Place on the face of each near point [-] and travel until which it is out of touch [m], in pairs."))(
+                    (vector<Real>, savedClear, , Attr::hidden, "Travel until which each near point is out of touch [m]."))(
                     (Real, savedValid, -1, Attr::hidden, "Travel until which the near points are complete [m]."))(
                     (Real, savedTravel, 0, Attr::hidden, "Travel of the rigid body [m]."))(
                     (vector<Vector2r>, savedForces, , Attr::hidden, "Force on each contact point's side in the last step [N/m]."))(

@@ -163,7 +163,7 @@ void SoftPairs::refuseOverlaps() const
             const auto &larger = first.size > second.size ? first : second,
                        &smaller = first.size > second.size ? second : first;
             const auto middle = (first.size > second.size ? pair.second : pair.first)->grain.motion.position;
-            const Real inside = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle), 0.5).gap;
+            const Real inside = -softgrain::project(larger, middle, softgrain::nearest_segment(larger, middle)).gap;
             if (inside > 0) depth = std::max(depth, inside + smaller.size);
         }
         if (depth > 1e-3 * second.size)

@@ -120,7 +120,6 @@ void SoftState::prepare(const Body& body)
     if (grain.mesh->is_concave() && !withItself) withItself.reset(new SoftGeom);
     known_ = body.material;
     mass = grain.mass();
-    inertia = Vector3r::Constant(grain.motion.second_moment.trace());
     publish();
     if (loaded) {
         asked = { published.vel + kick, published.angVel + turn };
@@ -239,9 +238,10 @@ void SoftState::publish()
 {
     const auto& motion = grain.motion;
     pos.head<2>() = motion.position;
+    inertia = Vector3r::Constant(motion.second_moment.trace());
     for (int d = 0; d < 2; ++d)
         if (!(blockedDOFs & axisDOF(d))) vel[d] = motion.velocity[d];
-    if (!(blockedDOFs & DOF_RZ)) angVel[2] = motion.angular_momentum[0] / motion.second_moment.trace();
+    if (!(blockedDOFs & DOF_RZ)) angVel[2] = motion.angular_momentum[0] / inertia[2];
     vel[2] = angVel[0] = angVel[1] = 0;
     asked = published = { vel, angVel };
     // rotation of the polar decomposition in the plane

@@ -29,7 +29,7 @@ public:
     bool outdated(const Body& body) const;
     /// Takes the body's material as it is now; the grain must not be in an assembly. Throws softgrain::UserError.
     void renew(const Body& body);
-    /// Copies the grain's rigid motion into pos, vel, ori, angVel; blocked velocities stay what they are asked to be.
+    /// Copies the grain's rigid motion and moment of inertia into pos, vel, ori, angVel, inertia; blocked velocities stay what they are asked to be.
     void publish();
     /// A velocity was set by hand since publish().
     bool touched() const { return asked.vel != published.vel || asked.angVel != published.angVel; }
@@ -152,7 +152,7 @@ public:
                             "inertia",
                             &SoftState::inertiaAsSet,
                             &SoftState::setInertia,
-                            "Moment of inertia about the centre of mass, undeformed [kg m]; follows from shape and density once the grain runs.")
+                            "Moment of inertia about the centre of mass, of the grain as it is deformed [kg m]; follows from shape and density once the grain runs.")
                     .add_property("se3", &SoftState::placement, &SoftState::setPlacement, "pos and ori.")
                     .add_property(
                             "vel",

@@ -169,7 +169,8 @@ def wall_on_a_disc(checks):
 
 
 def with_weight(checks):
-    box = packing(0.0, goal=(1e4, 1e4), stressMask=3, maxStrainRate=(50, 50), engines=dict(gravity=(0, -20, 0)))
+    box = packing(0.0, goal=(1e4, 1e4), stressMask=3, maxStrainRate=(50, 50), maxUnbalanced=0.05,   # chaos decides when it falls below 0.01
+                  engines=dict(gravity=(0, -20, 0)))
     checks.that("reached", go(box), (box.stress, box.currUnbalanced))
     mean = held(box)
     checks.close_to("the wall's own weight does not count", mean[1] / 1e4, 1, 0.02)

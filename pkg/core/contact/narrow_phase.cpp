@@ -56,12 +56,12 @@ namespace {
 
 } // namespace
 
-template <int Dim> Projection stand(const Surface<Dim>& mine, int point, const Surface<Dim>& other, int face, double place)
+template <int Dim> Projection stand(const Surface<Dim>& mine, int point, const Surface<Dim>& other, int face)
 {
     using Kind = typename Surface<Dim>::Kind;
     const Vec<Dim> x = mine.x(point);
     if (other.kind == Kind::line) return against_chord(other, x, 0);
-    const Projection at = project(other, x, face, place);
+    const Projection at = project(other, x, face);
     if (mine.kind != Kind::line) return at;
     Projection straight = against_chord(other, x, at.segment); // outlines bulge over the joints of lines, chords do not
     straight.t = at.t;
@@ -134,9 +134,9 @@ void PairContacts<Dim>::search(const Surface<Dim>& mine, const Surface<Dim>& oth
         if ((x.array() < lo.array()).any() || (x.array() > hi.array()).any()) continue;
         const int nearest = nearest_to(mine, p, other);
         if (nearest < 0) continue;
-        const Projection at = stand(mine, p, other, nearest, 0.5);
+        const Projection at = stand(mine, p, other, nearest);
         if (&mine == &other && !faces_own(mine, p, at, of_larger)) continue;
-        if (at.gap + (of_larger ? allowance(mine, p, other) : 0) < margin) found.push_back({ p, at.segment, at.t, 0 });
+        if (at.gap + (of_larger ? allowance(mine, p, other) : 0) < margin) found.push_back({ p, at.segment, 0 });
     }
 }
 
@@ -201,13 +201,12 @@ template <int Dim> void PairContacts<Dim>::look(const Surface<Dim>& first, const
                 memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
                 continue;
             }
-            Projection at = stand(mine, candidate.point, other, candidate.face, candidate.place);
+            Projection at = stand(mine, candidate.point, other, candidate.face);
             if (&mine == &other && !faces_own(mine, candidate.point, at, !mine_small)) continue;
             const double let = mine_small ? 0 : allowance(mine, candidate.point, other);
             if (mine.kind == Surface<Dim>::Kind::round) at.normal = -outward(mine, candidate.point);
             at.gap += let;
             candidate.face = at.segment;
-            candidate.place = at.t;
             candidate.clear_until = travel + safe_share * at.gap;
             memory.apart_until = std::min(memory.apart_until, candidate.clear_until);
             if (at.gap >= near || (other.kind == Surface<Dim>::Kind::line && !faces(other, at))) continue;
@@ -227,7 +226,7 @@ template <int Dim> double overlap(const Surface<Dim>& first, const Surface<Dim>&
         for (int p = 0; p < mine.count; ++p) {
             const Vec<Dim> x = mine.x(p);
             if ((x.array() < other.min.array() - beyond).any() || (x.array() > other.max.array() + beyond).any()) continue;
-            deepest = std::max(deepest, -project(other, x, nearest_segment(other, x), 0.5).gap);
+            deepest = std::max(deepest, -project(other, x, nearest_segment(other, x)).gap);
         }
     }
     return deepest;
@@ -271,7 +270,7 @@ template <int Dim> void PlaneContacts<Dim>::look(const Surface<Dim>& grain, int 
 }
 
 template double reach<2>(const Surface<2>&, double, double);
-template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, double);
+template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int);
 template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 template bool points_are_of_second<2>(const Surface<2>&, const Surface<2>&);

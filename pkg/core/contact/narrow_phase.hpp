@@ -28,9 +28,9 @@ template <int Dim> struct ContactPoint {
 /// How far ahead contacts are looked for: [m], beyond what two bodies can close in one step.
 template <int Dim> double reach(const Surface<Dim>& a, double other_speed, double dt);
 
-/// Where a surface point of `mine` stands against another body. The foot is sought from `place` on segment `face` on; a line
+/// Where a surface point of `mine` stands against another body. The foot is sought from segment `face` on; a line
 /// shows its first segment, drawn out at both ends, and the points of lines meet chords.
-template <int Dim> Projection stand(const Surface<Dim>& mine, int point, const Surface<Dim>& other, int face, double place);
+template <int Dim> Projection stand(const Surface<Dim>& mine, int point, const Surface<Dim>& other, int face);
 /// How an outline goes on at a foot of stand().
 template <int Dim> Bend bend_below(const Surface<Dim>& mine, const Surface<Dim>& other, int face, double place);
 
@@ -70,7 +70,6 @@ public:
 
     struct Candidate {
         int point, face;
-        double place;       ///< of the last foot on the face, 0 to 1
         double clear_until; ///< total travel of both bodies up to which the point is out of touch by its last gap [m]
     };
     /// What the next update starts from besides `points`: the points of the smaller body and of the larger that are near,
@@ -108,7 +107,7 @@ private:
     bool near_ = false;
 };
 
-extern template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int, double);
+extern template Projection stand<2>(const Surface<2>&, int, const Surface<2>&, int);
 extern template Bend bend_below<2>(const Surface<2>&, const Surface<2>&, int, double);
 extern template double allowance<2>(const Surface<2>&, int, const Surface<2>&);
 extern template bool points_are_of_second<2>(const Surface<2>&, const Surface<2>&);

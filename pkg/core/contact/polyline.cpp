@@ -42,6 +42,12 @@ namespace {
             a = c + last - 2 * chord;
         }
 
+        /// Where a foot is looked for first: that on the chord.
+        double first(const Vec<2>& p) const
+        {
+            const Vec<2> chord = x[2] - x[1];
+            return std::clamp((p - x[1]).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
+        }
         Vec<2> at(double t) const { return x[1] + t * (c + t * (b + t * a)); }
         Vec<2> tangent(double t) const { return c + t * (2 * b + t * 3 * a); }
         Vec<2> second(double t) const { return 2 * b + 6 * t * a; }
@@ -173,7 +179,7 @@ int faced_segment(const Surface<2>& polyline, int vertex, double depth)
     return best;
 }
 
-Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, double t)
+Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment)
 {
     constexpr int most_steps = 20;
     constexpr double tolerance = 1e-5; // of the last step: the place is off by its square
@@ -181,6 +187,7 @@ Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, dou
     int last_move = 0;
     for (int walked = 0; walked <= n; ++walked) {
         const Segment here(polyline, segment);
+        double t = here.first(x);
         int move = 0;
         for (int k = 0; k < most_steps; ++k) {
             const double step = here.step(x, t);
@@ -199,7 +206,6 @@ Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, dou
         if (move * last_move < 0) break; // between two segments: the vertex of a corner
         last_move = move;
         segment = (segment + move + n) % n;
-        t = move > 0 ? 0 : 1;
     }
     const int vertex = last_move < 0 ? (segment + 1) % n : segment;
     const Segment before(polyline, (vertex + n - 1) % n), after(polyline, vertex);

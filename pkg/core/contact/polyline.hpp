@@ -24,9 +24,9 @@ struct Projection {
 /// The foot follows the vertices: foot = sum of weight x vertex. As the normal is the outline's, the gap changes by
 /// n . (dx - sum of weight x d vertex) to first order, and a normal contact force makes no couple.
 ///
-/// Starts from the place t on segment `segment` and walks to the foot: the nearest one from any near start. Where
+/// Starts on segment `segment` and walks to the foot: the nearest one from any near start, to the last digit. Where
 /// there is none, at a convex corner, the vertex is the foot.
-Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment, double t);
+Projection project(const Surface<2>& polyline, const Vec<2>& x, int segment);
 
 /// How an outline goes on at a place of a segment.
 struct Bend {

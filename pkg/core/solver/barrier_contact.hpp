@@ -42,7 +42,7 @@ template <int Dim> struct BarrierContact {
     /// Foot, normal and gap of the point on the other body as both stand; the foot is sought from the last one on.
     void locate(const Surface<Dim>& point_body, const Surface<Dim>& face_body)
     {
-        const Projection at = stand(point_body, point, face_body, face, place);
+        const Projection at = stand(point_body, point, face_body, face);
         face = at.segment;
         place = at.t;
         vertex = at.vertex;

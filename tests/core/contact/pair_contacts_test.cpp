@@ -25,7 +25,7 @@ std::vector<Projection> projections(const Surface<2>& surface, const Vec<2>& x)
     double least = 1e300;
     Vec<2> nearest = Vec<2>::Zero();
     for (int start = 0; start < surface.count; ++start) {
-        all.push_back(project(surface, x, start, 0.5));
+        all.push_back(project(surface, x, start));
         const Vec<2> foot = foot_of(surface, all.back());
         if ((x - foot).norm() >= least) continue;
         least = (x - foot).norm();
