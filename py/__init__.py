@@ -9,13 +9,14 @@ _guard.check()
 from . import _softgrain  # noqa: E402  registers the classes in yade.wrapper
 import yade.wrapper  # noqa: E402
 
-from . import arrays, fclib, measures, stresses  # noqa: E402
+from . import arrays, fclib, measures, prompt, stresses  # noqa: E402
 from .builders import discCloud, rigidContacts, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
 from .checks import InputError  # noqa: E402
 
 __version__ = "0.1.0"
 
 globals().update({name: getattr(yade.wrapper, name) for name in _softgrain.classes})
+prompt.teach([getattr(yade.wrapper, name) for name in _softgrain.classes])
 
 
 def _renew_dispatchers():
