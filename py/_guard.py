@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Refuses a YADE whose objects lie in memory otherwise than the compiled plugin expects."""
+import shutil
 import sys
 
 try:
@@ -30,7 +31,8 @@ def objection(version, features, bits, expected=YADE_VERSION):
 def check():
     """Raises ImportError unless the plugin may be loaded into this process."""
     if "yade.wrapper" not in sys.modules:
-        raise ImportError("softgrain works inside YADE only: import it in a script run by `yade script.py`.")
+        hint = "" if shutil.which("yade") else " YADE is not installed here: on Debian 12, `apt-get install yade` as root does that."
+        raise ImportError("softgrain works inside YADE only: import it in a script run by `yade script.py`." + hint)
     from yade import config
 
     sentence = objection(config.version, config.features, config.highPrecisionBits)
