@@ -22,6 +22,11 @@ public:
     /// fields; once done costs nothing. Throws softgrain::UserError.
     void prepare(const Body& body);
     bool prepared() const { return grain.mesh != nullptr; }
+    /// Whether a state is one of these, which a scene may have replaced by another, and prepared.
+    static bool ready(const State& state)
+    {
+        return state.getClassIndex() == getClassIndexStatic() && static_cast<const SoftState&>(state).prepared();
+    }
     /// The body's material is not what the grain was set up with. Throws softgrain::UserError when the shape is not.
     bool outdated(const Body& body) const;
     /// Takes the body's material as it is now; the grain must not be in an assembly. Throws softgrain::UserError.

@@ -91,6 +91,10 @@ BUILDERS = [
     ("friction below zero", lambda: softEngines(friction=-0.1), ["friction", "-0.1"]),
     ("tolerance NaN", lambda: softEngines(tolerance=NAN), ["tolerance", "nan"]),
     ("gravity of one number", lambda: softEngines(gravity=9.81), ["gravity", "9.81"]),
+    ("an integrator that is none", lambda: softEngines(integrator="leapfrog"), ["integrator", "leapfrog", "'implicit'"]),
+    ("implicit steps without a length", lambda: softEngines(integrator="implicit"), ["implicit", "give dt"]),
+    ("explicit steps without inertia", lambda: softEngines(quasistatic=True), ["quasistatic", "integrator='implicit'"]),
+    ("theta out of range", lambda: softEngines(integrator="implicit", dt=1e-5, theta=0.3), ["theta", "0.3", "0.5 to 1"]),
 ]
 
 
