@@ -79,5 +79,9 @@ with tempfile.TemporaryDirectory(prefix="softgrain-law-") as folder:
     shutil.copytree(os.path.join(ROOT, "pkg"), os.path.join(folder, "pkg"))
     SAID = follow(PAGE, folder)
     print(SAID)
+    if "SOFTGRAIN_MESSAGES" in os.environ:      # see scene_testing.py
+        os.makedirs(os.environ["SOFTGRAIN_MESSAGES"], exist_ok=True)
+        with open(os.path.join(os.environ["SOFTGRAIN_MESSAGES"], os.path.basename(sys.argv[1]) + ".txt"), "w", encoding="utf-8") as file:
+            file.write(SAID)
     if "closed form" not in SAID:
         sys.exit("the page no longer ends with its check")
