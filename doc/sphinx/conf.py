@@ -8,6 +8,7 @@ extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "index"
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+toc_object_entries_show_parents = "hide"
 html_theme = "alabaster"
 html_theme_options = {"page_width": "1100px", "description": "Soft grains for YADE"}
 html_copy_source = False

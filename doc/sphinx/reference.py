@@ -16,9 +16,9 @@ from softgrain import _softgrain, arrays, builders, fclib, measures, stresses
 
 OURS = set(_softgrain.classes)
 YADE = "https://yade-dem.org/doc/yade.wrapper.html#yade.wrapper."
-GROUPS = {"Grains": ("SoftGrain", "SoftState"), "Materials": ("SoftMat", "*Mat"), "Steps": ("SoftIntegrator", "SoftImplicit*", "*Stepper"),
-          "Walls and boxes under stresses and strains": ("*Controller",), "Contacts": ("SoftGeom", "SoftPhys", "Ig2_*", "Ip2_*", "Law2_*"),
-          "Others": ("*",)}
+GROUPS = {"Grains": ("SoftGrain", "SoftState"), "Materials": ("SoftMat", "*Mat"),
+          "Steps": ("SoftIntegrator", "SoftImplicit*", "*Stepper"), "Walls and boxes under stresses and strains": ("*Controller",),
+          "Contacts": ("SoftGeom", "SoftPhys", "Ig2_*", "Ip2_*", "Law2_*"), "Others": ("*",)}
 
 
 def escaped(text):

@@ -86,7 +86,7 @@ public:
             "State of a :yref:`SoftGrain`. pos, vel are those of the centre of mass, ori, angVel the rotation in the mean deformation "
             "gradient's polar decomposition and the angular momentum over the moment of inertia; renewed every step, in the xy-plane. pos, vel, "
             "angVel can be set at any time; blockedDOFs of x, y, Z keep the velocity that is set, of the grain as a whole. "
-            "Arrays come as bytes of float64; softgrain.points(body) and its like give them as numpy arrays.",
+            "Arrays come as bytes of float64; softgrain.arrays.points(body) and its like give them as numpy arrays.",
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, nodeVelocity, , Attr::hidden, "Velocities of the grid nodes, [node][2] [radius/s]."))(

@@ -24,17 +24,16 @@ def statements():
     """Of each statement with a message: (file, its parts of some length)."""
     found = [(path, parts) for path in files("pkg/core/*/*.[ch]pp", "pkg/yade/*.[ch]pp") for parts in _of_cpp(read(path))]
     found += [(path, parts) for path in files("py/*.py", "examples/*.py") for parts in _of_python(read(path))]
-    long = [(path, [part.strip() for part in parts if len(part.strip()) >= LEAST and " " in part.strip()]) for path, parts in found]
-    return [(path, parts) for path, parts in long if parts]
+    return [(path, _long(parts)) for path, parts in found if _long(parts)]
 
 
 def literals():
     """All strings of the sources that a message could hold, those of names aside."""
-    found = [part for path in files("pkg/*/*/*.[ch]pp", "pkg/yade/*.[ch]pp", "pkg/abi/lib/*/*.hpp") for parts in _of_cpp(read(path))
-             for part in parts]
+    cpp = files("pkg/*/*/*.[ch]pp", "pkg/yade/*.[ch]pp", "pkg/abi/lib/*/*.hpp")
+    found = [part for path in cpp for parts in _of_cpp(read(path)) for part in parts]
     found += [node.value for path in files("py/*.py", "examples/*.py") for node in ast.walk(ast.parse(read(path)))
               if isinstance(node, ast.Constant) and isinstance(node.value, str)]
-    return {part.strip() for part in found if len(part.strip()) >= LEAST and " " in part.strip()}
+    return set(_long(found))
 
 
 def page():
@@ -42,6 +41,11 @@ def page():
     points = re.findall(r"^- (.*(?:\n  .*)*)", read("doc/troubleshooting.md"), re.M)
     codes = [["".join(two) for two in re.findall(r"``(.+?)``|`([^`]+)`", point)] for point in points]
     return [code for of_point in codes for code in of_point], [of_point[0] for of_point in codes]
+
+
+def _long(parts):
+    """Those that count."""
+    return [part.strip() for part in parts if len(part.strip()) >= LEAST and " " in part.strip()]
 
 
 def _of_cpp(text):
@@ -57,6 +61,7 @@ def _of_cpp(text):
 def _of_python(text):
     """The strings of each raise and sys.exit; a KeyError is for who writes code."""
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Raise) and "KeyError" not in ast.unparse(node) or isinstance(node, ast.Call) and ast.unparse(node.func) == "sys.exit":
+        raised = isinstance(node, ast.Raise) and "KeyError" not in ast.unparse(node)
+        if raised or isinstance(node, ast.Call) and ast.unparse(node.func) == "sys.exit":
             yield [text for part in ast.walk(node) if isinstance(part, ast.Constant) and isinstance(part.value, str)
                    for text in part.value.split("{}")]

@@ -1,7 +1,7 @@
 #!/usr/bin/python3.11
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sphinx builds doc/ and the reference without a warning; formulas and roles are nowhere left as they were written; every class and
-attribute of the plugin, and every function that a scene gets, has its place in the reference."""
+"""Sphinx builds doc/ and the reference without a warning; formulas and roles are nowhere left as they were written; every class
+and attribute of the plugin, and every function that a scene gets, has its place in the reference."""
 import glob
 import html
 import os
@@ -42,8 +42,8 @@ def names(folder):
     return [name for line in said.splitlines() if line.startswith("name ") for name in line.split()[1:]]
 
 
-built = subprocess.run(["/usr/bin/python3.11", os.path.join(ROOT, "doc", "sphinx", "build.py"), BUILD], capture_output=True, text=True,
-                       check=False)
+built = subprocess.run(["/usr/bin/python3.11", os.path.join(ROOT, "doc", "sphinx", "build.py"), BUILD], capture_output=True,
+                       text=True, check=False)
 if built.returncode != 0:
     sys.exit(built.stdout + built.stderr)
 faults = []

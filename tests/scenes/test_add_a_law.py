@@ -1,8 +1,11 @@
 #!/usr/bin/python3.11
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A page of doc/ that adds a law, followed to the letter in a copy of the sources: its files are written and its commands run. Of
-the build, only what the page changes is compiled, by the commands of the build tree in SOFTGRAIN_BUILD, and linked with the rest of
-it.  test_add_a_law.py doc/PAGE.md  """
+"""A page of doc/ that adds a law, followed to the letter in a copy of the sources: its files are written and its commands run.
+Of the build, only what the page changes is compiled, by the commands of the build tree in SOFTGRAIN_BUILD, and linked with the
+rest of it.
+
+    test_add_a_law.py doc/PAGE.md
+"""
 import filecmp
 import os
 import re
@@ -79,9 +82,10 @@ with tempfile.TemporaryDirectory(prefix="softgrain-law-") as folder:
     shutil.copytree(os.path.join(ROOT, "pkg"), os.path.join(folder, "pkg"))
     SAID = follow(PAGE, folder)
     print(SAID)
-    if "SOFTGRAIN_MESSAGES" in os.environ:      # see scene_testing.py
-        os.makedirs(os.environ["SOFTGRAIN_MESSAGES"], exist_ok=True)
-        with open(os.path.join(os.environ["SOFTGRAIN_MESSAGES"], os.path.basename(sys.argv[1]) + ".txt"), "w", encoding="utf-8") as file:
+    met = os.environ.get("SOFTGRAIN_MESSAGES")      # see scene_testing.py
+    if met:
+        os.makedirs(met, exist_ok=True)
+        with open(os.path.join(met, os.path.basename(sys.argv[1]) + ".txt"), "w", encoding="utf-8") as file:
             file.write(SAID)
     if "closed form" not in SAID:
         sys.exit("the page no longer ends with its check")

@@ -133,7 +133,8 @@ def grains_put_together_by_hand(checks):
         O.bodies.append([body, *softBox(R, R, 1)])
         O.step()
     for engines in ({}, {"dt": 1e-7}):
-        checks.raises(f"a state of YADE, {engines}", RuntimeError, ["#1", "SoftState", "softDisc"], lambda: other_state(**engines))
+        checks.raises(f"a state of YADE, {engines}", RuntimeError, ["#1", "SoftState", "softDisc"],
+                      lambda: other_state(**engines))
 
 
 def files_without_results(checks):
@@ -150,7 +151,8 @@ def files_without_results(checks):
         run = subprocess.run(["/usr/bin/python3.11", "-c", script], cwd=folder, capture_output=True, text=True, check=False)
         checks.that("a run without snapshots", "holds no snapshots" in run.stderr, run.stderr)
         run = subprocess.run(["yade", "-n", "-x", os.path.join(EXAMPLES, "squeeze.py"), "--threads", "2"], cwd=folder,
-                             capture_output=True, text=True, check=False, env=dict(os.environ, SOFTGRAIN_RESTARTED_FOR_THREADS="1"))
+                             capture_output=True, text=True, check=False,
+                             env=dict(os.environ, SOFTGRAIN_RESTARTED_FOR_THREADS="1"))
         checks.that("threads that cannot be had", run.returncode == 2 and "--threads 2 could not be had" in run.stderr, said(run))
 
 
@@ -165,10 +167,10 @@ def what_is_missing(checks):
         away = subprocess.run(["yade", "-n", "-x", example], cwd=folder, capture_output=True, text=True, check=False)
         checks.that("no references", away.returncode == 2 and "source tree" in away.stderr, said(away))
         figures = os.path.join(EXAMPLES, "figures.py")
-        for what, path, python, words in (("softgrain", "", [], "is not installed"), ("matplotlib", PACKAGE, ["-S"], "has no matplotlib"),
-                                          ("yade", PACKAGE, ["-c", "import softgrain"], "inside YADE only")):
-            command = ["/usr/bin/python3.11", *python, *([] if "-c" in python else [figures, "."])]
-            run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False,
+        for what, path, options, words in (("softgrain", "", [figures, "."], "is not installed"),
+                                           ("matplotlib", PACKAGE, ["-S", figures, "."], "has no matplotlib"),
+                                           ("yade", PACKAGE, ["-c", "import softgrain"], "inside YADE only")):
+            run = subprocess.run(["/usr/bin/python3.11", *options], cwd=folder, capture_output=True, text=True, check=False,
                                  env=dict(os.environ, PYTHONPATH=path))
             checks.that(f"no {what}", run.returncode == 1 and words in run.stderr, run.stderr)
 
