@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import tempfile
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BUILD = os.environ["SOFTGRAIN_BUILD"]
 LIST = os.path.join(BUILD, "installed_files.txt")       # of an install that a person may have made from this tree
 SCENE = """
@@ -71,6 +72,9 @@ def packaged(scratch):
     version = must("dpkg-query", "-W", "-f", "${Version}", "yade")
     with open(os.path.join(BUILD, "pkg", "abi", "_built_for.py"), encoding="utf-8") as file:
         assert version.startswith(re.search('"(.+)"', file.read())[1]), version
+    for name, pattern in (("py/__init__.py", r'__version__ = "(.+)"'), ("CITATION.cff", r"(?m)^version: (.+)$")):
+        with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+            assert re.search(pattern, file.read())[1] == fields["Version"], f"{name} is of another version than the package"
     needs = fields["Depends"].split(", ")
     assert f"yade (= {version})" in needs and "python3-numpy" in needs, needs
     module = os.path.join(BUILD, "py/softgrain/_softgrain.so")
