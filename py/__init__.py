@@ -8,6 +8,7 @@ stresses (of a running scene) and fclib (its contact problems, for other solvers
 
 Outside of YADE, in any python3 with numpy, there are movie and load_run, which read what runs have written."""
 import sys
+import warnings
 
 from . import _guard
 from .checks import InputError
@@ -49,7 +50,7 @@ if _guard.inside_yade():
     from . import _softgrain  # registers the classes in yade.wrapper
     import yade.wrapper
 
-    from . import arrays, fclib, live, measures, stresses
+    from . import arrays, fclib, live, measures, prompt, stresses
     from .builders import discCloud, rigidContacts, rigidDisc, softBox, softCloud, softDisc, softEngines, softPolygon
     from .data import save_run
     from .live import progress
@@ -57,14 +58,16 @@ if _guard.inside_yade():
     from .restart import checkpoints, resume
 
     globals().update({name: getattr(yade.wrapper, name) for name in _softgrain.classes})
+    prompt.teach([getattr(yade.wrapper, name) for name in _softgrain.classes])
     __all__ += _softgrain.classes
     _renew_dispatchers()
     _enter_windows()
     live.watch_for_interrupts()
 else:
+    warnings.warn("this is not YADE: softgrain has load_run and movie here; scenes are scripts run by `yade script.py`.", stacklevel=2)
+
     def __getattr__(name):
         """Says what is missing outside of YADE."""
         if name in _OF_SCENES:
-            raise ImportError(f"softgrain.{name} works inside YADE only: import it in a script run by `yade script.py`. Elsewhere there are "
-                              "load_run and movie.")
+            raise _guard.outside(f"softgrain.{name}")
         raise AttributeError(f"module 'softgrain' has no attribute '{name}'")

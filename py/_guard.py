@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Refuses a YADE whose objects lie in memory otherwise than the compiled plugin expects."""
+import shutil
 import sys
 
 try:
@@ -32,8 +33,16 @@ def inside_yade():
     return "yade.wrapper" in sys.modules
 
 
+def outside(what):
+    """The ImportError of what works inside YADE only."""
+    hint = "" if shutil.which("yade") else " YADE is not installed here: on Debian 12, `apt-get install yade` as root does that."
+    return ImportError(f"{what} works inside YADE only: import it in a script run by `yade script.py`." + hint)
+
+
 def check():
-    """Raises ImportError unless the plugin may be loaded into this YADE."""
+    """Raises ImportError unless the plugin may be loaded into this process."""
+    if not inside_yade():
+        raise outside("softgrain")
     from yade import config
 
     sentence = objection(config.version, config.features, config.highPrecisionBits)

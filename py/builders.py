@@ -378,8 +378,7 @@ def _shape(name, attributes):
     try:
         return wrapper.SoftGrain(**attributes)
     except (AttributeError, TypeError) as error:
-        reason = str(error).splitlines()[0].rstrip(".")
-        raise InputError(f"{name}: {reason}: give attributes of SoftGrain, with values of their types.") from None
+        raise InputError(f"{name}: {error}") from None
 
 
 def _colour(name, color):

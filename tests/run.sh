@@ -5,7 +5,7 @@
 #   bash tests/run.sh [ctest options, e.g. -R contact]
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/build.sh"
 
-install_missing "${needed[@]}" libgtest-dev clang-format-14 python3-siconos libfclib-dev python3-h5py python3-vtk9 xvfb
+install_missing "${needed[@]}" libgtest-dev clang-format-14 python3-siconos libfclib-dev python3-h5py python3-vtk9 xvfb dpkg-dev python3-sphinx python3-myst-parser
 export SOFTGRAIN_CMAKE_OPTIONS="-DSOFTGRAIN_TESTS=ON -DSOFTGRAIN_WERROR=$([ "${CI:-}" = true ] && echo ON || echo OFF)"
 build_plugin
 

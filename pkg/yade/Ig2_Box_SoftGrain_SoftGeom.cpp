@@ -13,7 +13,7 @@ bool Ig2_Box_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const share
                                     const State& state2, const Vector3r&, const bool&,
                                     const shared_ptr<Interaction>& interaction)
 {
-    if (!static_cast<const SoftState&>(state2).prepared()) return false;
+    if (!SoftState::ready(state2)) return false;
     const Vector3r axis = state1.ori * Vector3r::UnitZ();
     if (!state1.pos.allFinite() || !state1.vel.allFinite() || !((axis - Vector3r::UnitZ()).norm() < 1e-6)) {
         Problems::note("box #" + std::to_string(interaction->id1)

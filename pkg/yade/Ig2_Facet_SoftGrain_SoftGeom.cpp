@@ -31,7 +31,7 @@ bool Ig2_Facet_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const sha
                                       const shared_ptr<Interaction>& interaction)
 {
     const auto& soft = static_cast<const SoftState&>(state2);
-    if (!soft.prepared()) return false;
+    if (!SoftState::ready(state2)) return false;
     if (!state1.pos.allFinite() || !state1.vel.allFinite() || !state1.angVel.allFinite()) {
         Problems::note("facet #" + std::to_string(interaction->id1)
                        + ": its position, velocity or angVel is not finite; give finite numbers.");

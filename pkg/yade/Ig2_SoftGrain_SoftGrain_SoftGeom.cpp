@@ -14,7 +14,7 @@ bool Ig2_SoftGrain_SoftGrain_SoftGeom::go(const shared_ptr<Shape>&, const shared
                                           const shared_ptr<Interaction>& interaction)
 {
     const auto &first = static_cast<const SoftState&>(state1), &second = static_cast<const SoftState&>(state2);
-    if (!first.prepared() || !second.prepared()) return false;
+    if (!SoftState::ready(state1) || !SoftState::ready(state2)) return false;
     if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new SoftGeom);
     auto& geom = static_cast<SoftGeom&>(*interaction->geom);
     if (geom.pair.apart(first.grain.surface, second.grain.surface, scene->dt)) return interaction->isReal();

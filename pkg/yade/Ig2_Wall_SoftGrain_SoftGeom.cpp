@@ -14,7 +14,7 @@ bool Ig2_Wall_SoftGrain_SoftGeom::go(const shared_ptr<Shape>& shape1, const shar
                                      const State& state2, const Vector3r&, const bool&,
                                      const shared_ptr<Interaction>& interaction)
 {
-    if (!static_cast<const SoftState&>(state2).prepared()) return false;
+    if (!SoftState::ready(state2)) return false;
     const auto& wall = static_cast<const Wall&>(*shape1);
     const auto& soft = static_cast<const SoftState&>(state2);
     const auto& grain = soft.grain;

@@ -25,6 +25,11 @@ public:
     bool prepared() const { return grain.mesh != nullptr; }
     /// Held while a grain is set up, so that another thread sees it before or after.
     static std::mutex& settingUp();
+    /// Whether a state is one of these, which a scene may have replaced by another, and prepared.
+    static bool ready(const State& state)
+    {
+        return state.getClassIndex() == getClassIndexStatic() && static_cast<const SoftState&>(state).prepared();
+    }
     /// The body's material is not what the grain was set up with. Throws softgrain::UserError when the shape is not.
     bool outdated(const Body& body) const;
     /// Takes the body's material as it is now; the grain must not be in an assembly. Throws softgrain::UserError.
@@ -87,7 +92,7 @@ public:
             "State of a :yref:`SoftGrain`. pos, vel are those of the centre of mass, ori, angVel the rotation in the mean deformation "
             "gradient's polar decomposition and the angular momentum over the moment of inertia; renewed every step, in the xy-plane. pos, vel, "
             "angVel can be set at any time; blockedDOFs of x, y, Z keep the velocity that is set, of the grain as a whole. "
-            "Arrays come as bytes of float64; softgrain.points(body) and its like give them as numpy arrays.",
+            "Arrays come as bytes of float64; softgrain.arrays.points(body) and its like give them as numpy arrays.",
             ((Vector2r, origin, Vector2r::Zero(), Attr::hidden, "Centre of the undeformed grain: a node is at origin + radius (X + u) [m]."))(
                     (vector<Real>, nodeDisplacement, , Attr::hidden, "Displacements u of the grid nodes, [node][2] [radius]."))(
                     (vector<Real>, flight, , Attr::hidden, "Motion of a grain that moves as a rigid body [SI units]; empty while it deforms."))(

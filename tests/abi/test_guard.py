@@ -24,5 +24,18 @@ refused(guard.objection("2022.01a", DEBIAN, 64, VERSION), VERSION, "2022.01a", "
 refused(guard.objection(VERSION, [f for f in DEBIAN if f != "MPI"], 64, VERSION), "without MPI")
 refused(guard.objection(VERSION, DEBIAN + ["SPH"], 64, VERSION), "with SPH")
 refused(guard.objection(VERSION, DEBIAN, 128, VERSION), "128-bit")
+
+
+def refusal():
+    try:
+        guard.check()
+    except ImportError as error:
+        return str(error)
+    raise AssertionError("check() passed outside YADE")
+
+
+refused(refusal(), "inside YADE", "yade script.py")
+os.environ["PATH"] = "/nonexistent"
+refused(refusal(), "inside YADE", "apt-get install yade")
 assert not guard.inside_yade()
-print("7 passed, 0 failed")
+print("9 passed, 0 failed")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests of this folder share. Each test file runs as  yade -n -x tests/scenes/test_NAME.py  and ends with the
-line "N passed, M failed" and exit code 0 or 1."""
+line "N passed, M failed" and exit code 0 or 1. What messages a test has met it leaves in the folder SOFTGRAIN_MESSAGES, for
+tests/doc/test_messages.py."""
 import os
 import shutil
 import subprocess
@@ -10,6 +11,7 @@ import traceback
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.join(os.path.dirname(os.path.dirname(HERE)), "examples")
+MET = []    # messages
 
 
 class Checks:
@@ -19,6 +21,7 @@ class Checks:
         self.passed = self.failed = 0
 
     def that(self, what, holds, detail=""):
+        MET.append(str(detail))
         if holds:
             self.passed += 1
         else:
@@ -35,6 +38,7 @@ class Checks:
             work()
         except kind as error:
             text = str(error)
+            MET.append(text)
             missing = [word for word in words if word not in text]
             return self.that(what, not missing and is_sentence(text), f"said: {text!r}, lacks {missing}")
         except Exception as error:
@@ -57,6 +61,11 @@ def run_tests(*tests):
             traceback.print_exc(file=sys.stdout)
             checks.that(test.__name__, False, "stopped by an exception")
     print(f"{checks.passed} passed, {checks.failed} failed")
+    folder = os.environ.get("SOFTGRAIN_MESSAGES")
+    if folder:
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, os.path.basename(sys.argv[0]) + ".txt"), "w", encoding="utf-8") as file:
+            file.write("\n".join(MET))
     sys.stdout.flush()
     sys.exit(1 if checks.failed else 0)
 

@@ -1,7 +1,12 @@
 #!/usr/bin/python3.11
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""doc/add_a_law.md, followed to the letter in a copy of the sources: its files are written and its commands run. Of the build,
-only what the law changes is compiled, by the commands of the build tree in SOFTGRAIN_BUILD, and linked with the rest of it."""
+"""A page of doc/ that adds a law, followed to the letter in a copy of the sources: its files are written and its commands run.
+Of the build, only what the page changes is compiled, by the commands of the build tree in SOFTGRAIN_BUILD, and linked with the
+rest of it.
+
+    test_add_a_law.py doc/PAGE.md
+"""
+import filecmp
 import os
 import re
 import shutil
@@ -27,15 +32,23 @@ def run(command, folder):
     return done.stdout
 
 
-def build(copy, sources):
-    """What a build of the copy would make anew because of these sources: their objects and the plugin."""
+def changed(copy):
+    """Sources that are new or others in the copy."""
+    found = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(copy, "pkg")) for name in names]
+    paths = sorted(os.path.relpath(path, copy) for path in found if path.endswith(".cpp"))
+    return [path for path in paths if not os.path.exists(os.path.join(ROOT, path))
+            or not filecmp.cmp(os.path.join(ROOT, path), os.path.join(copy, path), shallow=False)]
+
+
+def build(copy):
+    """What a build of the copy would make anew: the objects of changed sources and the plugin."""
     commands = run("ninja -t commands _softgrain", BUILD).splitlines()
 
     def command_of(output):
         return next(line for line in commands if f" -o {output} " in line)
 
     objects = []
-    for source in sources:
+    for source in changed(copy):
         target = "softgrain_core" if source.startswith("pkg/core") else "_softgrain"
         like = source if os.path.exists(os.path.join(ROOT, source)) else "pkg/yade/NeoHookeanMat.cpp"
         made = os.path.join(copy, os.path.basename(source) + ".o")
@@ -51,24 +64,28 @@ def build(copy, sources):
 
 def follow(page, copy):
     """Returns what the last command said."""
-    said, written = "", []
+    said = ""
     for language, text, name in blocks(page):
         if name:
-            written.append(name)
             with open(os.path.join(copy, name), "x", encoding="utf-8") as file:
                 file.write(text)
         elif text.startswith("cmake "):
-            build(copy, ["pkg/core/step/kernels.cpp"] + [name for name in written if name.startswith("pkg/yade/")])
+            build(copy)
         elif language == "sh":
             said = run(text, copy)
     return said
 
 
-with open(os.path.join(ROOT, "doc", "add_a_law.md"), encoding="utf-8") as file:
+with open(os.path.join(ROOT, sys.argv[1]), encoding="utf-8") as file:
     PAGE = file.read()
 with tempfile.TemporaryDirectory(prefix="softgrain-law-") as folder:
     shutil.copytree(os.path.join(ROOT, "pkg"), os.path.join(folder, "pkg"))
     SAID = follow(PAGE, folder)
     print(SAID)
+    met = os.environ.get("SOFTGRAIN_MESSAGES")      # see scene_testing.py
+    if met:
+        os.makedirs(met, exist_ok=True)
+        with open(os.path.join(met, os.path.basename(sys.argv[1]) + ".txt"), "w", encoding="utf-8") as file:
+            file.write(SAID)
     if "closed form" not in SAID:
         sys.exit("the page no longer ends with its check")

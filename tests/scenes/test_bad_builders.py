@@ -41,7 +41,7 @@ BUILDERS = [
     ("colour without numbers", lambda: softDisc((0, 0), 1e-3, color="red"), ["color", "red", "three"]),
     ("colour of two numbers", lambda: softDisc((0, 0), 1e-3, color=(1, 0)), ["color", "three"]),
     ("unknown attribute", lambda: softDisc((0, 0), 1e-3, nodeTreshold=0.1), ["nodeTreshold", "SoftGrain"]),
-    ("attribute of another type", lambda: softDisc((0, 0), 1e-3, nodeThreshold="x"), ["softDisc", "types"]),
+    ("attribute of another type", lambda: softDisc((0, 0), 1e-3, nodeThreshold="x"), ["softDisc", "nodeThreshold", "'x'", "number"]),
     ("surface spacing NaN", lambda: softDisc((0, 0), 1e-3, surfaceSpacing=NAN), ["softDisc", "surfaceSpacing", "nan"]),
     ("grid offset NaN", lambda: softDisc((0, 0), 1e-3, gridOffset=(NAN, 0)), ["softDisc", "gridOffset", "finite"]),
     ("node threshold out of range", lambda: softDisc((0, 0), 1e-3, nodeThreshold=2), ["nodeThreshold", "2"]),
@@ -91,6 +91,10 @@ BUILDERS = [
     ("friction below zero", lambda: softEngines(friction=-0.1), ["friction", "-0.1"]),
     ("tolerance NaN", lambda: softEngines(tolerance=NAN), ["tolerance", "nan"]),
     ("gravity of one number", lambda: softEngines(gravity=9.81), ["gravity", "9.81"]),
+    ("an integrator that is none", lambda: softEngines(integrator="leapfrog"), ["integrator", "leapfrog", "'implicit'"]),
+    ("implicit steps without a length", lambda: softEngines(integrator="implicit"), ["implicit", "give dt"]),
+    ("explicit steps without inertia", lambda: softEngines(quasistatic=True), ["quasistatic", "integrator='implicit'"]),
+    ("theta out of range", lambda: softEngines(integrator="implicit", dt=1e-5, theta=0.3), ["theta", "0.3", "0.5 to 1"]),
 ]
 
 

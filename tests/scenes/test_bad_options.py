@@ -11,7 +11,7 @@ from yade import O
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import EXAMPLES, Folder, is_sentence, run_tests  # noqa: E402
-from softgrain.records import read_table, sealed  # noqa: E402
+from softgrain.records import digest, read_table, sealed  # noqa: E402
 
 SMALL = ["--grains", "10", "--points", "60"]
 
@@ -173,6 +173,11 @@ def spoiled_checkpoints_are_refused(checks):
         with open(stored, "wb") as file:
             file.write(note())
         spoiled("a scene that is none", [good["scene"], "--force"], scene, b"garbage")
+        digests = [good["digests"][0], digest(b"garbage")]
+        spoiled("a scene that is none, sealed", [good["scene"], "cannot be loaded", "--force"], stored, note(digests=digests))
+        os.remove(stored)
+        code, _, err = run_inside("compaction", ["--out", out, "--resume", "--until", "0.7"])
+        checks.that("no checkpoint", code == 2 and "without its checkpoint" in err and is_sentence(err.strip()), err)
 
 
 def a_run_that_breaks_down_leaves_its_rows(checks):

@@ -7,13 +7,13 @@ import sys
 
 import numpy
 from yade import O
-from yade.wrapper import (FrictMat, Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
+from yade.wrapper import (Body, FrictMat, Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
                           Law2_ScGeom_FrictPhys_CundallStrack)
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from scene_testing import Folder, run_tests  # noqa: E402
-from softgrain import (NeoHookeanMat, SoftBoxController, SoftWallController, discCloud, measures, rigidContacts,  # noqa: E402
-                       rigidDisc, softBox, softDisc, softEngines)
+from softgrain import (NeoHookeanMat, SoftBoundaryController, SoftBoxController, SoftWallController, discCloud,  # noqa: E402
+                       measures, rigidContacts, rigidDisc, softBox, softDisc, softEngines)
 
 WIDTH, R = 8e-3, 1e-3
 
@@ -231,6 +231,7 @@ def refusals(checks):
 
     complaint(["SoftBoxController", "goal along x", "-10000", "compression"], goal=(-1e4, 1e4))
     complaint(["goal along y", "strain"], goal=(1e4, math.nan), stressMask=1)
+    complaint(["maxStrainRate along x", "0"], maxStrainRate=(0, 1))
     complaint(["maxStrainRate along y", "0"], maxStrainRate=(1, 0))
     complaint(["stressMask", "4"], stressMask=4)
     complaint(["mass", "-1"], mass=-1)
@@ -239,6 +240,11 @@ def refusals(checks):
     complaint(["body #99"], lambda box: setattr(box, "walls", [99, 1, 2, 3]))
     complaint(["body #0", "SoftGrain", "Wall normal to x"], lambda box: setattr(box, "walls", [0, 1, 2, 3]))
     complaint(["body #17", "axis = 1", "normal to x"], lambda box: setattr(box, "walls", [17, 16, 15, 18]))
+    complaint(["body #19", "without shape", "Wall normal to x"],
+              lambda box: setattr(box, "walls", [O.bodies.append(Body()), 16, 17, 18]))
+    complaint(["no grain that moves", "mass"], lambda box: [setattr(body, "dynamic", False) for body in measures.softBodies()])
+    complaint(["SoftBoundaryController moves nothing", "SoftBoxController"],
+              lambda box: setattr(O, "engines", softEngines(more=[SoftBoundaryController()])))
     complaint(["#16", "#15", "apart"], lambda box: setattr(box, "walls", [16, 15, 17, 18]))
     complaint(["before SoftIntegrator"], lambda box: setattr(O, "engines", [box] + O.engines[:-1]))
 

@@ -101,6 +101,17 @@ TEST(Grain, IsPutWhereItIsToldWithTheVelocityItIsTold)
 
 // Lumping adds h^2/4 to the second moments per mass (Marsden's identity), slaves change the rest by O(h^2) too: inertia
 // comes with an error of order 2. A disc has m R^2 / 4.
+TEST(Grain, OfALawThatIsNotThereIsRefusedWithTheNamesOfThoseThatAre)
+{
+    try {
+        law_kernels<2>("Jelly");
+        FAIL() << "was taken";
+    } catch (const UserError& error) {
+        for (const char* words : { "'Jelly' is not there", "' is not there; take one of: ", "Neo-Hookean" })
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+}
+
 TEST(Grain, LumpedInertiaIsOfOrder2)
 {
     std::vector<double> error, width;

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# cmake --build build --target uninstall: removes what the last cmake --install of this build tree has put somewhere, Python's
+# byte code of it, and the folders that are empty then and were made for it.
+if(NOT EXISTS ${INSTALLED_FILES})
+    message(FATAL_ERROR "Nothing has been installed from this build tree: there is no ${INSTALLED_FILES}.")
+endif()
+file(STRINGS ${INSTALLED_FILES} files)
+foreach(file ${files})
+    message(STATUS "Removing ${file}")
+    file(REMOVE ${file})
+    cmake_path(GET file PARENT_PATH folder)
+    list(APPEND folders ${folder})
+endforeach()
+list(REMOVE_DUPLICATES folders)
+foreach(folder ${folders})
+    file(REMOVE_RECURSE ${folder}/__pycache__)
+    file(GLOB left ${folder}/*)
+    if(NOT left)
+        file(REMOVE_RECURSE ${folder})
+    endif()
+endforeach()
+file(REMOVE ${INSTALLED_FILES})
