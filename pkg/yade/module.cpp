@@ -6,6 +6,7 @@
 #include <pkg/common/OpenGLRenderer.hpp>
 
 namespace {
+/// The 3D view knows all classes that draw from now on.
 void renewRenderer(yade::OpenGLRenderer& renderer) { renderer.init(); }
 }
 
@@ -13,5 +14,5 @@ BOOST_PYTHON_MODULE(_softgrain)
 {
     boost::python::import("softgrain._guard").attr("check")();
     boost::python::scope().attr("classes") = yade::registerNewPluginClasses();
-    boost::python::def("renewRenderer", renewRenderer, "Lets YADE's 3D view know all classes that draw.");
+    boost::python::def("renewRenderer", renewRenderer);
 }
