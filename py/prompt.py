@@ -94,7 +94,7 @@ def _own(kind):
     if vars(kind).get("__repr__") is not _told:
         return []
     return [name for name, found in vars(kind).items()
-            if isinstance(found, property) and found.fset and KIND.search(found.__doc__)]
+            if isinstance(found, property) and found.fset and KIND.search(found.__doc__ or "")]
 
 
 def _word(name, value, doc):

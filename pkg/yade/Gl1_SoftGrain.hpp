@@ -28,8 +28,8 @@ public:
                      range,
                      Vector2r::Zero(),
                      ,
-                     "Values of the field with the first and the last colour (dark blue and yellow); both equal: the least and the largest of all grains."))(
-                    (Vector2r, shownRange, Vector2r::Zero(), Attr::readonly, "What range the last picture has."))(
+                     "Values of the field with the first and the last colour (dark blue and yellow) [its unit]; both equal: the least and the largest of all grains."))(
+                    (Vector2r, shownRange, Vector2r::Zero(), Attr::readonly, "What range the last picture has [unit of the field]."))(
                     (bool, outline, true, , "Draw the boundary as a line."))(
                     (bool, points, false, , "Draw a dot at every material point.")));
 };

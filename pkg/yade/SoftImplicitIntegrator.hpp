@@ -48,6 +48,7 @@ public:
 protected:
     Real lookAhead() const override { return 1.5 * softgrain::ImplicitStep<2>::ahead; }
     Real velocitiesBehind() const override { return 0; }
+    bool mayFly() const override { return false; }
     void assembled() override;
     void advance(double dt) override;
     void requireSaneAttributes() const override;

@@ -232,7 +232,7 @@ void SoftIntegrator::adopt()
         grains.push_back(&state->grain);
     for (auto* grain : grains)
         grain->surface.ahead = std::max(lookAhead() * grain->radius, adhesionRange());
-    assembly_ = std::make_unique<softgrain::Assembly<2>>(grains);
+    assembly_ = std::make_unique<softgrain::Assembly<2>>(grains, mayFly());
     assembled();
     evaluate();
 }

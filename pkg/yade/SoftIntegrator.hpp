@@ -111,6 +111,8 @@ protected:
     void adopt();
     /// How far to look for contacts besides what speeds tell [radius].
     virtual Real lookAhead() const { return 0; }
+    /// Whether grains may move as rigid bodies.
+    virtual bool mayFly() const { return true; }
     /// The assembly is new.
     virtual void assembled() { }
     virtual void advance(double dt);

@@ -32,7 +32,7 @@ public:
                      "'normal', 'force', 'normalForce' [N/m], 'torque' [N]. 'all': all blocks with all fields."))(
                     (bool, ascii, false, , "Numbers as text that a person can read."))(
                     (bool, compress, false, , "Smaller files, by zlib; takes longer."))(
-                    (int, mask, 0, , "Bodies whose mask shares a bit with this are written, and contacts of two such; 0: all.")),
+                    (int, mask, 0, , "Bodies whose mask shares a bit with this are written, and contacts of two such; 0: all [-].")),
             initRun = true);
 };
 REGISTER_SERIALIZABLE(SoftVTKRecorder);

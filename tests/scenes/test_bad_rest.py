@@ -147,7 +147,7 @@ def files_without_results(checks):
             with open(path, "w", encoding="ascii") as file:
                 file.write(text)
             checks.raises(what, ValueError, words, work)
-        script = f"import sys; sys.path.insert(0, {PACKAGE + '/softgrain'!r}); import figures; figures.draw_picture('.', 'x.png')"
+        script = f"import sys; sys.path.insert(0, {PACKAGE!r}); from softgrain import figures; figures.draw_picture('.', 'x.png')"
         run = subprocess.run(["/usr/bin/python3.11", "-c", script], cwd=folder, capture_output=True, text=True, check=False)
         checks.that("a run without snapshots", "holds no snapshots" in run.stderr, run.stderr)
         run = subprocess.run(["yade", "-n", "-x", os.path.join(EXAMPLES, "squeeze.py"), "--threads", "2"], cwd=folder,
@@ -169,7 +169,7 @@ def what_is_missing(checks):
         figures = os.path.join(EXAMPLES, "figures.py")
         for what, path, options, words in (("softgrain", "", [figures, "."], "is not installed"),
                                            ("matplotlib", PACKAGE, ["-S", figures, "."], "has no matplotlib"),
-                                           ("yade", PACKAGE, ["-c", "import softgrain"], "inside YADE only")):
+                                           ("yade", PACKAGE, ["-c", "from softgrain import softDisc"], "inside YADE only")):
             run = subprocess.run(["/usr/bin/python3.11", *options], cwd=folder, capture_output=True, text=True, check=False,
                                  env=dict(os.environ, PYTHONPATH=path))
             checks.that(f"no {what}", run.returncode == 1 and words in run.stderr, run.stderr)

@@ -32,7 +32,7 @@ LOADING
     grains, height = softCloud(6e-3, 10, (1.4e-3, 2.4e-3), 0.65, 0, points=60, seed=2)
     O.bodies.append(grains)
     top = O.bodies.append(softBox(6e-3, height, 1))[-1]
-    O.bodies[top].state.vel = (0, -0.3, 0)
+    O.bodies[top].state.vel = (0, -0.1, 0)
     ENGINES
 print("begins", O.iter, flush=True)
 RUN

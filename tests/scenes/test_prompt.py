@@ -30,7 +30,9 @@ def everything_has_a_docstring_with_its_unit(checks):
     for kind in CLASSES:
         checks.that(f"{kind.__name__} says what it is", len(kind.__doc__ or "") > 40, kind.__doc__)
         for name, member in own_members(kind).items():
-            text = re.sub(r":y\w+:`[^`]*`", "", member.__doc__ or "").partition(" :\n")[2 if callable(member) else 0].strip()
+            static = re.search(rf"ystaticattr:: {kind.__name__}\.{name}\(.*?\)\n\n\t(.*?)\n\n", kind.__doc__ or "", re.DOTALL)
+            doc = static[1] if static else member.__doc__ or ""
+            text = re.sub(r":y\w+:`[^`]*`", "", doc).partition(" :\n")[2 if callable(member) else 0].strip()
             checks.that(f"{kind.__name__}.{name} says what it is", len(text) > 5 and text.endswith("."), text)
             number = "".join(prompt.KIND.findall(member.__doc__ or "")) in NUMBERS or "-> float" in (member.__doc__ or "")
             unit = re.search(r"\[[^]]+\]", text)

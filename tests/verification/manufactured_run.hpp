@@ -85,8 +85,7 @@ private:
         std::vector<Grain<2>*> all;
         for (Grain<2>& grain : grains_)
             all.push_back(&grain);
-        Assembly<2> assembly(all);
-        assembly.land_all();
+        Assembly<2> assembly(all, false);
         double largest_u = 0, largest_v = 0;
         for (int k = 0; k < steps_; ++k) {
             const double t = k * dt_;

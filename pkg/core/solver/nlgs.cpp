@@ -39,6 +39,7 @@ public:
         bodies_.assign(problem.bodies.size(), {});
         velocity_.clear();
         rigid_ = false;
+        round_off_ = 0;
         among_rigid_.begin(problem);
         for (const auto& contact : problem.contacts) {
             if (RigidContacts<Dim>::knows(problem, contact)) continue;
@@ -98,7 +99,7 @@ public:
     /// Treats the contacts that no soft body has a part in once.
     void sweep_among_rigid(double share) { among_rigid_.sweep(share); }
 
-    /// The last sweep changed the impulses by less than this, relative to their size.
+    /// The last sweep changed the impulses by less than this, relative to their size, or by no more than round-off.
     bool converged(double tolerance) const
     {
         double change = among_rigid_.change, size = among_rigid_.size;
@@ -106,7 +107,7 @@ public:
             change += group.change;
             size += group.size;
         }
-        return change <= tolerance * tolerance * size;
+        return change <= tolerance * tolerance * size + round_off_;
     }
 
     void finish()
@@ -185,6 +186,10 @@ private:
         const Surface<Dim>& surface = *problem_->bodies[index];
         body = { int(velocity_.size()) / Dim, surface.mobility, surface.response };
         velocity_.insert(velocity_.end(), surface.velocity.begin(), surface.velocity.end());
+        if (surface.mobility > 0) {
+            const double momentum = 1e-14 * surface.speed / surface.mobility;
+            round_off_ += momentum * momentum;
+        }
         if (!surface.rigid) return;
         rigid_ = true;
         std::fill(velocity_.begin() + Dim * body.first, velocity_.end(), 0);
@@ -419,6 +424,7 @@ private:
     ContactProblem<Dim>* problem_ = nullptr;
     std::vector<Body> bodies_;
     std::vector<double> velocity_;
+    double round_off_;                  ///< squared, in the impulses of bodies as fast as these
     bool rigid_;                        ///< some bodies with contacts are rigid and moved by impulses
     std::vector<Group> groups_;         ///< phase after phase
     std::array<int, phases + 1> phase_; ///< first group of each phase

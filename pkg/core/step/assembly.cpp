@@ -72,7 +72,7 @@ namespace {
 } // namespace
 
 template <int Dim>
-Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
+Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains, bool may_fly)
     : grains_(std::move(grains))
     , seats_(grains_)
     , dissipated_(grains_.size())
@@ -81,13 +81,15 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains)
     for (size_t i = 0; i < grains_.size(); ++i) {
         Grain<Dim>& grain = *grains_[i];
         grain.number = int(i);
+        grain.pull(); // another assembly may have had it
         grain.surface.wanted = true;
         grain.renew_positions();
         if (grain.updated) {
             updated_.push_back(&grain);
             continue;
         }
-        if (!grain.flight && only_translates(grain)) {
+        if (grain.flight && !may_fly) softgrain::land(grain);
+        if (may_fly && !grain.flight && only_translates(grain)) {
             grain.motion.angular_momentum.setZero(); // round-off
             softgrain::take_off(grain, 0);
         }
@@ -116,11 +118,6 @@ template <int Dim> void Assembly<Dim>::land(const std::function<bool(const Grain
         seats_.put_in(**grain);
     }
     flights_.erase(landing, flights_.end());
-}
-
-template <int Dim> void Assembly<Dim>::land_all()
-{
-    land([](const Grain<Dim>&) { return true; });
 }
 
 /// Those that observe has found to be ready.

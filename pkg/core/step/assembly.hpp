@@ -28,7 +28,8 @@ struct EnergyBalance {
 template <int Dim> class Assembly {
 public:
     /// Takes the grains in; their order decides nothing but the order of sums.
-    explicit Assembly(std::vector<Grain<Dim>*> grains);
+    /// Of grains that may not fly all deform.
+    explicit Assembly(std::vector<Grain<Dim>*> grains, bool may_fly = true);
     /// Hands the node fields back to the grains.
     ~Assembly();
     Assembly(const Assembly&) = delete;
@@ -38,8 +39,6 @@ public:
     double damping = 0;
     /// Of is_nearly_rigid: which total-Lagrangian grains take off [shear modulus]; 0: none but at the start.
     double rigid_below = 0;
-    /// All grains deform from now on.
-    void land_all();
     int flying() const { return int(flights_.size()); }
     /// Velocities of the surfaces without contact impulses. Throws SimulationError when a point has inverted.
     void predict(double dt, const Vec<Dim>& gravity, int threads);

@@ -126,7 +126,6 @@ template <int Dim> std::vector<std::unique_ptr<ImplicitBody<Dim>>> implicit_bodi
 {
     std::vector<std::unique_ptr<ImplicitBody<Dim>>> bodies;
     std::map<const Discretisation<Dim>*, std::shared_ptr<const StiffnessPattern<Dim>>> patterns;
-    assembly.land_all();
     Seating<Dim>& seats = assembly.seats();
     for (int b = 0; b < seats.count(); ++b) {
         Batch<Dim>& batch = seats.batch(b);

@@ -172,7 +172,7 @@ template <int Dim> std::vector<double> packed_flight(const Grain<Dim>& grain)
     append(m.angular_momentum);
     append(m.second_moment);
     append(m.mean_gradient);
-    values.insert(values.end(), { m.kinetic, grain.flight->angle, grain.min_J });
+    values.insert(values.end(), { grain.elastic, m.kinetic, grain.flight->angle, grain.min_J });
     return values;
 }
 
@@ -180,7 +180,10 @@ template <int Dim> bool unpack_flight(const std::vector<double>& values, Grain<D
 {
     if (values.empty()) return true;
     Motion<Dim>& m = grain.motion;
-    if (values.size() != size_t(3 * Dim + m.angular_momentum.size() + 2 * Dim * Dim + 3)) return false;
+    if (values.size() != size_t(3 * Dim + m.angular_momentum.size() + 2 * Dim * Dim + 4)) return false;
+    const double elastic = *(values.end() - 4), modulus = grain.law->shear_modulus(grain.parameters.data());
+    if (std::abs(grain.elastic_energy() - elastic) > 1e-6 * elastic + 1e-12 * modulus * grain.reference_volume())
+        return true; // its nodes are others: it deforms
     auto from = values.begin();
     const auto take = [&from](auto& part) {
         std::copy_n(from, part.size(), part.data());
@@ -193,10 +196,10 @@ template <int Dim> bool unpack_flight(const std::vector<double>& values, Grain<D
     take(m.angular_momentum);
     take(m.second_moment);
     take(m.mean_gradient);
-    m.kinetic = *from++;
+    m.kinetic = *++from;
     grain.flight = flight_from(grain, centre);
-    grain.flight->angle = *from++;
-    grain.min_J = *from;
+    grain.flight->angle = *++from;
+    grain.min_J = *++from;
     grain.surface.speed = fastest(grain);
     write_positions(grain);
     grain.surface.bound();

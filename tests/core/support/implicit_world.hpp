@@ -78,7 +78,7 @@ private:
 
     void start()
     {
-        assemble(pointers(grains));
+        assemble(pointers(grains), false);
         // the assembly keeps the order
         for (Grain<2>* grain : assembly_->grains())
             bodies.push_back(&grain->surface);

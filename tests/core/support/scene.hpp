@@ -41,9 +41,9 @@ protected:
     std::optional<Assembly<2>> assembly_;
 
     /// Makes the assembly of these, all grains in some order, and room for the contacts.
-    void assemble(std::vector<Grain<2>*> members)
+    void assemble(std::vector<Grain<2>*> members, bool may_fly = true)
     {
-        assembly_.emplace(std::move(members));
+        assembly_.emplace(std::move(members), may_fly);
         pairs_.resize(grains.size() * (grains.size() + 1) / 2);
         plane_pairs_.resize(planes.size() * grains.size());
     }
