@@ -69,9 +69,12 @@ def method(name, doc):
 
 def class_lines(kind):
     bases = ", ".join(base.__name__ for base in kind.__bases__)
-    lines = [f".. py:class:: {kind.__name__}({bases})", "", f"   {prose(kind.__doc__)}", ""]
+    said, *shared = kind.__doc__.split(f".. ystaticattr:: {kind.__name__}.")
+    lines = [f".. py:class:: {kind.__name__}({bases})", "", f"   {prose(said)}", ""]
+    for name, default, doc in (re.match(r"(\w+)\(=(.*?)\)\n(.*)", one, re.DOTALL).groups() for one in shared):
+        lines += [f"   .. py:attribute:: {name}", f"      :value: {default}", "", f"      {prose(doc)} *(of the class)*", ""]
     for name, member in vars(kind).items():
-        if name.startswith("_"):
+        if name.startswith("_") or type(member).__name__ == "StaticProperty":
             continue
         lines += attribute(name, member.__doc__) if isinstance(member, property) else method(name, member.__doc__)
     return lines

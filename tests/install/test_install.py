@@ -93,9 +93,9 @@ def packaged(scratch):
 def elsewhere_says_what_to_do(_):
     environment = dict(os.environ, PYTHONPATH=os.path.join(BUILD, "py"), PYTHONDONTWRITEBYTECODE="1")
     for path, words in ((os.environ["PATH"], "`yade script.py`"), ("/nonexistent", "apt-get install yade")):
-        done = run("/usr/bin/python3.11", "-c", "import softgrain", env=dict(environment, PATH=path))
+        done = run("/usr/bin/python3.11", "-c", "from softgrain import softDisc", env=dict(environment, PATH=path))
         last = done.stderr.strip().splitlines()[-1]
-        assert done.returncode == 1 and last.startswith("ImportError: softgrain works inside YADE only") and words in last, last
+        assert done.returncode == 1 and last.startswith("ImportError: softgrain.softDisc works inside YADE only") and words in last, last
 
 
 kept = None

@@ -172,7 +172,7 @@ def others(checks):
     start()
     O.bodies.append([softDisc((x * R, 0), R, "gel", points=60) for x in (0, 1.999)])
     with Folder() as folder:
-        O.engines = softEngines(more=[VTKRecorder(fileName=folder + "/shot-", recorders=["all"], iterPeriod=1),
+        O.engines = softEngines(more=[VTKRecorder(fileName=folder + "/shot-", recorders=["spheres", "facets", "boxes", "velocity"], iterPeriod=1),
                                       ForceRecorder(ids=[0], file=folder + "/force.txt", iterPeriod=1)])
         run(3)
         checks.that("VTKRecorder and ForceRecorder run", len(os.listdir(folder)) > 3, os.listdir(folder))

@@ -182,7 +182,7 @@ template <int Dim> bool unpack_flight(const std::vector<double>& values, Grain<D
     Motion<Dim>& m = grain.motion;
     if (values.size() != size_t(3 * Dim + m.angular_momentum.size() + 2 * Dim * Dim + 4)) return false;
     const double elastic = *(values.end() - 4), modulus = grain.law->shear_modulus(grain.parameters.data());
-    if (std::abs(grain.elastic_energy() - elastic) > 1e-6 * elastic + 1e-12 * modulus * grain.reference_volume())
+    if (!(std::abs(grain.elastic_energy() - elastic) <= 1e-6 * elastic + 1e-12 * modulus * grain.reference_volume()))
         return true; // its nodes are others: it deforms
     auto from = values.begin();
     const auto take = [&from](auto& part) {
