@@ -21,7 +21,7 @@ from scene_testing import Folder, is_sentence, run_tests, said  # noqa: E402
 from softgrain import InputError, NeoHookeanMat, checkpoints, live, progress, resume, softBox, softCloud, softEngines  # noqa: E402
 
 SEED = int(sys.argv[sys.argv.index("--seed") + 1]) if "--seed" in sys.argv else random.randrange(10**6)
-STEPS = 8000
+STEPS = 40000
 # A packing whose top wall comes down; LINES are its engines and the run; `digits` is all that steps change, to the last digit.
 SCENE = """
 import sys, zlib
@@ -30,9 +30,11 @@ LOADING
     O.materials.append(NeoHookeanMat(frictionAngle=0.2))
     O.materials.append(FrictMat(frictionAngle=0.1))
     grains, height = softCloud(6e-3, 10, (1.4e-3, 2.4e-3), 0.65, 0, points=60, seed=2)
+    for grain in grains:
+        grain.state.angVel = (0, 0, 1)      # or they would fly as rigid bodies at first, which takes no time
     O.bodies.append(grains)
     top = O.bodies.append(softBox(6e-3, height, 1))[-1]
-    O.bodies[top].state.vel = (0, -0.1, 0)
+    O.bodies[top].state.vel = (0, -0.05, 0)
     ENGINES
 print("begins", O.iter, flush=True)
 RUN
@@ -152,7 +154,7 @@ def damaged_and_foreign_checkpoints(checks):
         here = os.getcwd()
         os.chdir(folder)
         try:
-            write_scene(folder, run="O.run(4000, True)")
+            write_scene(folder, run="O.run(30000, True)")
             process = start(folder)
             digits_of(process)
             checks.that("nothing to resume", resume("none") is False)
@@ -189,7 +191,7 @@ def an_engine_in_the_middle_of_a_step_is_refused(checks):
 
 
 def progress_on_a_terminal(checks):
-    engines = "O.engines = softEngines(more=[progress(show=SHOW, seconds=0.1)])\n    O.stopAtIter = 9000"
+    engines = "O.engines = softEngines(more=[progress(show=SHOW, seconds=0.1)])\n    O.stopAtIter = 45000"
     with Folder() as folder:
         write_scene(folder, engines.replace("SHOW", "None"), "O.run(wait=True)", "if True:")
         shown = on_a_terminal(folder)
