@@ -12,7 +12,7 @@ from fnmatch import fnmatch
 import yade.wrapper as wrapper
 
 import softgrain
-from softgrain import _softgrain, arrays, builders, fclib, measures, stresses
+from softgrain import _softgrain, arrays, builders, fclib, measures, stresses, data, live, pictures, restart
 
 OURS = set(_softgrain.classes)
 YADE = "https://yade-dem.org/doc/yade.wrapper.html#yade.wrapper."
@@ -101,12 +101,13 @@ def function_lines(name, function):
 
 def functions_page():
     lines = ["Functions", "=========", "", "What ``from softgrain import *`` brings beside the classes.", ""]
-    for module, shown in ((builders, "Bodies and engines"), (arrays, "arrays"), (measures, "measures"), (stresses, "stresses"),
-                          (fclib, "fclib")):
-        prefix = "softgrain." + ("" if module is builders else f"{shown}.")
+    for module, shown in ((builders, "Bodies and engines"), (pictures, "Pictures"), (live, "Live runs"), (restart, "Checkpoints"),
+                          (data, "Data of runs"), (arrays, "arrays"), (measures, "measures"), (stresses, "stresses"), (fclib, "fclib")):
+        own = module in (arrays, measures, stresses, fclib)
+        prefix = "softgrain." + (f"{shown}." if own else "")
         lines += [shown, "-" * len(shown), "", escaped(" ".join(module.__doc__.split())), ""]
         for name, function in vars(module).items():
-            public = not name.startswith("_") and (module is not builders or name in softgrain.__all__)
+            public = not name.startswith("_") and (own or name in softgrain.__all__)
             if inspect.isfunction(function) and public and function.__module__ == module.__name__:
                 lines += function_lines(prefix + name, function)
     return lines
