@@ -10,6 +10,7 @@ import numpy
 from yade import libVersions
 
 from .checks import InputError
+from .records import replace_text, replacing
 
 try:
     import vtkmodules
@@ -45,28 +46,17 @@ def write(prefix, blocks, moment, ascii=False, compress=False):
             os.makedirs(folder, exist_ok=True)
         files = {name: f"{prefix}{name}.{moment.step}.vtp" for name in blocks}
         for name, block in blocks.items():
-            _whole(files[name], lambda path: _write(_polydata(block, moment.time), path, ascii, compress))
-        series = _series(prefix + "scene.pvd", files, moment)
-        _whole(prefix + "scene.pvd", lambda path: _text(path, series))
+            with replacing(files[name]) as unfinished:
+                _write(_polydata(block, moment.time), unfinished, ascii, compress)
+        replace_text(prefix + "scene.pvd", _series(prefix + "scene.pvd", files, moment))
     except OSError as error:
         raise InputError(f"SoftVTKRecorder: files of fileName = {prefix!r} cannot be written ({error.strerror}): take a folder that can "
                          "be written to and has room.") from None
 
 
-def _whole(path, work):
-    """What work(path) writes takes the place of the file at once."""
-    unfinished = f"{path}.{os.getpid()}.part"
-    try:
-        with open(unfinished, "wb"):
-            pass                                # the system says why it cannot be
-        work(unfinished)
-        os.replace(unfinished, path)
-    finally:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
-
-
 def _write(data, path, ascii, compress):
+    with open(path, "wb"):
+        pass                                    # the system says why it cannot be
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(path)
     writer.SetInputData(data)
@@ -144,8 +134,3 @@ def _entries(path, head, tail):
     except FileNotFoundError:
         return []
     return lines[len(head):-len(tail)] if lines[:len(head)] == head and lines[-len(tail):] == tail else []
-
-
-def _text(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)

@@ -12,7 +12,7 @@ from fnmatch import fnmatch
 import yade.wrapper as wrapper
 
 import softgrain
-from softgrain import _softgrain, arrays, builders, fclib, measures, stresses, data, live, pictures, restart
+from softgrain import _softgrain, arrays, builders, data, fclib, live, measures, pictures, restart, stresses
 
 OURS = set(_softgrain.classes)
 YADE = "https://yade-dem.org/doc/yade.wrapper.html#yade.wrapper."

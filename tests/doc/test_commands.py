@@ -17,7 +17,8 @@ BUILD = os.environ["SOFTGRAIN_BUILD"]
 PAGES = [os.path.join(ROOT, "README.md")] + sorted(page for page in glob.glob(os.path.join(ROOT, "doc", "*.md"))
                                                    if not page.endswith("_law.md"))
 SHORT = {"compaction.py": "--quick --grains 20 --points 40 --until 0.75", "rigid_compaction.py": "--quick --grains 20",
-         "squeeze.py": "--quick", "figures.py": ""}
+         "squeeze.py": "--quick", "heavy_ball.py": "--quick", "figures.py": ""}
+SHORTER = ("60       60 ", "20       40 ")                                 # grains and points of sweep.table
 STUDIES = {"accuracy_cost.py", "packing_scatter.py", "soft_vs_rigid.py"}     # several runs each
 
 
@@ -39,6 +40,25 @@ def example(words, folder):
         return [f"{name} has no {word}" for word in options if word.startswith("--") and word not in known]
     command = ["/usr/bin/python3.11", path] if name == "figures.py" else ["yade", "-n", "-x", path]
     done = run([*command, *options, *SHORT[name].split()], folder)
+    return [] if done.returncode == 0 else [done.stderr[-500:]]
+
+
+def sweep(words, folder):
+    """yade-batch with a table of smaller packings."""
+    *options, table, scene = words
+    examples = os.path.join(ROOT, "examples")
+    text = read(os.path.join(examples, table))
+    with open(os.path.join(folder, table), "w", encoding="utf-8") as file:
+        file.write(text.replace(*SHORTER))
+    done = run(["yade-batch", "--log=%.log", *options, table, os.path.join(examples, scene)], folder)
+    reader = re.search(r"^```python\n(import glob.*?)^```", read(os.path.join(ROOT, "doc", "data.md")), re.S | re.M)[1]
+    told = run(["/usr/bin/python3.11", "-c", reader], folder)
+    lines = len(re.findall(r"^\w+-\d ", text, re.M))
+    return [] if len(told.stdout.splitlines()) == lines else [done.stderr[-500:] + told.stdout + told.stderr[-500:]]
+
+
+def python(words, folder):
+    done = run(["/usr/bin/python3.11", *words], folder)
     return [] if done.returncode == 0 else [done.stderr[-500:]]
 
 
@@ -82,9 +102,11 @@ def build(words, _):
 
 RULES = [   # what a command is like, what looks at the words in the group
     (r"(?:bash examples/run\.sh |yade -n -x examples/)(.*)", example), (r"bash tests/run\.sh(.*)", all_tests),
+    (r"yade-batch (.*)", sweep), (r"python3 (-c .*)", python),
+    (r"(?:pvpython|xvfb-run .* yade -x --) (doc/.*)", lambda words, _: [] if os.path.exists(os.path.join(ROOT, words[0])) else [words[0]]),
     (r"(?:yade -n -x|python3|bash) (tests/.*)", test_script), (r"(build/tests/.*)", google_test),
     (r"((?:cmake|ninja) .*)", build)]
-TRUSTED = ("apt-get install ", "export PYTHONPATH=", "(cd build", "cpack)")     # tests/install/test_install.py packs
+TRUSTED = ("apt-get install ", "export PYTHONPATH=", "(cd build", "cpack)", "cd examples")     # tests/install/test_install.py packs
 
 
 def commands(page):

@@ -300,7 +300,7 @@ def mistakes(checks):
         says("a folder that cannot be", ["fileName", "/proc/none/"], fileName="/proc/none/")
         os.mkdir(folder + "/scene.pvd")
         says("a folder in the place of the list", ["fileName", "directory"], fileName=folder + "/")
-        checks.that("nothing half-done is left", not glob.glob(folder + "/*.part"), os.listdir(folder))
+        checks.that("nothing half-done is left", not glob.glob(folder + "/*.part*"), os.listdir(folder))
         loaded = [name for name in sys.modules if name.startswith(("vtkmodules", "softgrain.vtk_"))]
         kept = {name: sys.modules.pop(name) for name in loaded}
         other = types.ModuleType("vtkmodules")

@@ -109,6 +109,5 @@ run_cases(*[(f"held packing, friction {mu:g}" + ", long" * LONG, ALL, held(mu))
           ("five grains pressed to 5 % and released", ("implicit", "quasistatic") + ("explicit",) * LONG, flat_and_back),
           ("compaction, release, compaction", ALL, again),
           ("fast cycles of a wall", ALL[:3], fast_cycles),
-          known=[("held packing, friction 0.5", "implicit", "grains still settle"),
-                 ("five grains pressed to 5 %", "quasistatic", "forces find no balance"),
+          known=[("five grains pressed to 5 %", "quasistatic", "forces find no balance"),
                  ("held packing, friction 10", "updated", SWEEPS)])

@@ -91,7 +91,7 @@ Assembly<Dim>::Assembly(std::vector<Grain<Dim>*> grains, bool may_fly)
         if (grain.flight && !may_fly) softgrain::land(grain);
         if (may_fly && !grain.flight && only_translates(grain)) {
             grain.motion.angular_momentum.setZero(); // round-off
-            softgrain::take_off(grain, 0);
+            softgrain::take_off(grain);
         }
         (grain.flight ? flights_ : seated).push_back(&grain);
     }
@@ -108,11 +108,11 @@ template <int Dim> Assembly<Dim>::~Assembly()
     }
 }
 
-/// Takes those of the grains in flight out that are to deform.
-template <int Dim> void Assembly<Dim>::land(const std::function<bool(const Grain<Dim>&)>& is_to)
+/// Those of the grains in flight that something is near to deform from now on.
+template <int Dim> void Assembly<Dim>::land_touched()
 {
-    const auto landing
-        = std::stable_partition(flights_.begin(), flights_.end(), [&](auto* grain) { return !is_to(*grain); });
+    const auto landing = std::stable_partition(flights_.begin(), flights_.end(),
+                                               [](const Grain<Dim>* grain) { return !grain->surface.near; });
     for (auto grain = landing; grain != flights_.end(); ++grain) {
         softgrain::land(**grain);
         seats_.put_in(**grain);
@@ -120,13 +120,18 @@ template <int Dim> void Assembly<Dim>::land(const std::function<bool(const Grain
     flights_.erase(landing, flights_.end());
 }
 
-/// Those that observe has found to be ready.
-template <int Dim> void Assembly<Dim>::take_off(double dt)
+/// Grains that are ready for it; what their vibration held is lost.
+template <int Dim> void Assembly<Dim>::take_off(const std::vector<char>& ready, double dt)
 {
+    std::vector<double> elastic;
     for (Grain<Dim>* grain : grains_) {
-        if (!std::exchange(ready_[size_t(grain->number)], false)) continue;
+        if (!ready[size_t(grain->number)]) continue;
         seats_.take_out(*grain);
-        dissipated_[size_t(grain->number)].numerical += softgrain::take_off(*grain, dt);
+        Batch<Dim> batch = grain->alone();
+        energy_over_step(batch, dt, elastic);
+        const double before = grain->motion.kinetic + std::pow(grain->radius, Dim) * elastic[0];
+        softgrain::take_off(*grain);
+        dissipated_[size_t(grain->number)].numerical += before - grain->motion.kinetic - grain->elastic;
         flights_.push_back(grain);
     }
 }
@@ -135,7 +140,7 @@ template <int Dim> void Assembly<Dim>::predict(double dt, const Vec<Dim>& gravit
 {
     kick_ = dt;
     gravity_ = gravity;
-    land([](const Grain<Dim>& grain) { return grain.surface.near; });
+    land_touched();
     std::fill(dissipated_.begin(), dissipated_.end(), Dissipation {});
     const int count = seats_.count(), single = int(updated_.size());
     least_J_.assign(size_t(count + single), 1);
@@ -193,7 +198,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
     const int count = seats_.count(), single = int(updated_.size());
     std::vector<char> sound(size_t(count + single), true);
     std::vector<std::string> complaint(single);
-    ready_.assign(rigid_below > 0 ? grains_.size() : 0, false);
+    std::vector<char> ready(rigid_below > 0 ? grains_.size() : 0, false); // to take off
     sound.push_back(fly(dt, threads, before, after));
 #pragma omp parallel for num_threads(team(threads, size_t(count))) schedule(dynamic)
     for (int b = 0; b < count; ++b) {
@@ -212,8 +217,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
         sound[b] = observe(b, dt, after);
         for (Grain<Dim>* grain : seats_.members(b)) {
             sound[b] &= !grain->surface.leaps(dt);
-            if (rigid_below > 0 && !grain->surface.near)
-                ready_[size_t(grain->number)] = is_nearly_rigid(*grain, rigid_below);
+            if (rigid_below > 0 && !grain->surface.near) ready[size_t(grain->number)] = is_nearly_rigid(*grain, rigid_below);
         }
     }
 #pragma omp parallel for num_threads(team(threads, updated_.size())) schedule(dynamic)
@@ -226,7 +230,7 @@ template <int Dim> void Assembly<Dim>::correct(double dt, int threads, const Vis
     }
     report_unsound(sound, dt);
     report(complaint);
-    if (rigid_below > 0) take_off(dt);
+    if (rigid_below > 0) take_off(ready, dt);
 }
 
 /// The grains in flight; false when something is wrong with one.

@@ -71,8 +71,8 @@ public:
     const std::vector<Grain<Dim>*>& updated() const { return updated_; }
 
 private:
-    void land(const std::function<bool(const Grain<Dim>&)>& is_to);
-    void take_off(double dt);
+    void land_touched();
+    void take_off(const std::vector<char>& ready, double dt);
     bool fly(double dt, int threads, const Visit& before, const Visit& after);
     void push(int b);
     void damp(int b);
@@ -89,7 +89,6 @@ private:
     std::vector<double> least_J_;                  ///< of each batch and each updated-Lagrangian grain
     std::vector<Dissipation> dissipated_;          ///< of each grain, in the last step
     std::vector<LocalDamping<Dim>> local_damping_; ///< of each batch, where there is any
-    std::vector<char> ready_;                      ///< to take off, each grain
     double kick_ = 0;                              ///< time step of the last predict [s]
     Vec<Dim> gravity_ = Vec<Dim>::Zero();          ///< of the same
 };

@@ -321,8 +321,11 @@ template <int Dim> void ImplicitGrains<Dim>::restore()
 {
     each_part([&](Part& part) {
         part.body->leave(part.displacement, part.velocity);
-        for (size_t lane = 0; lane < part.index.size(); ++lane)
-            part.body->members[lane]->surface.position = start_[part.index[lane]];
+        for (size_t lane = 0; lane < part.index.size(); ++lane) {
+            Surface<Dim>& surface = part.body->members[lane]->surface;
+            surface.position = start_[part.index[lane]];
+            surface.bound();
+        }
     });
 }
 

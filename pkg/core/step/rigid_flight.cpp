@@ -83,15 +83,11 @@ template <int Dim> bool is_nearly_rigid(Grain<Dim>& grain, double tolerance)
     return vibration + grain.elastic_energy() <= most;
 }
 
-template <int Dim> double take_off(Grain<Dim>& grain, double dt)
+template <int Dim> void take_off(Grain<Dim>& grain)
 {
-    std::vector<double> energy;
-    Batch<Dim> batch = grain.alone();
-    energy_over_step(batch, dt, energy);
-    const double before = grain.motion.kinetic + std::pow(grain.radius, Dim) * energy[0];
     grain.flight = flight_from<Dim>(grain, (grain.motion.position - grain.origin) / grain.radius);
     grain.motion.kinetic = kinetic(grain);
-    return before - grain.motion.kinetic - grain.elastic_energy();
+    grain.elastic_energy();
 }
 
 template <int Dim> double accelerate(Grain<Dim>& grain, double dt, const Vec<Dim>& gravity, double damping)
@@ -216,7 +212,7 @@ template <int Dim> void land(Grain<Dim>& grain)
 template void energy_over_step<2>(Batch<2>&, double, std::vector<double>&);
 template bool only_translates<2>(const Grain<2>&);
 template bool is_nearly_rigid<2>(Grain<2>&, double);
-template double take_off<2>(Grain<2>&, double);
+template void take_off<2>(Grain<2>&);
 template double accelerate<2>(Grain<2>&, double, const Vec<2>&, double);
 template bool fly<2>(Grain<2>&, double);
 template void write_nodes<2>(Grain<2>&);

@@ -18,8 +18,8 @@ template <int Dim> bool only_translates(const Grain<Dim>& grain);
 /// strains the grain by no more than that. Brings the node fields from the batch to find out.
 template <int Dim> bool is_nearly_rigid(Grain<Dim>& grain, double tolerance);
 
-/// From now on it is in flight, with the fields that it holds. Returns the energy that its vibration had, after a step [J].
-template <int Dim> double take_off(Grain<Dim>& grain, double dt);
+/// From now on it is in flight, with the fields that it holds; without what vibrated.
+template <int Dim> void take_off(Grain<Dim>& grain);
 /// A step of a grain in flight, accelerated as a whole; `damping` as of local_damping.hpp. Returns what that dissipates [J].
 template <int Dim> double accelerate(Grain<Dim>& grain, double dt, const Vec<Dim>& gravity, double damping);
 /// False when it stays where it is.
