@@ -55,7 +55,8 @@ class Mixture:
             self.box.globUpdate = between * SAMPLES
             borne = []
             for _ in range(SAMPLES):
-                O.run(between, True)
+                for _ in range(between):
+                    O.step()
                 borne.append(-numpy.trace(stresses.ofPackingByContacts(self.box.boxArea)) / 2)
             rows.append({**self._row(energy), "contact_stress_Pa": numpy.mean(borne), "cpu_s": cpu_seconds() - start})
             show(min(max(math.log10(rows[-1]["stress_Pa"] + 1) / math.log10(limit + 1), 0), 1),

@@ -65,6 +65,8 @@ def outside(checks, folder):
     checks.that("a movie", os.path.getsize(os.path.join(folder, "run.gif")) > 5000)
     star = subprocess.run(["/usr/bin/python3", "-c", "from softgrain import *"], cwd=folder, capture_output=True, text=True, check=False)
     checks.that("a scene run by python3 is told so", "works inside YADE only" in star.stderr, star.stderr)
+    wrong = subprocess.run(["/usr/bin/python3", "-c", "import softgrain; softgrain.softDisk"], capture_output=True, text=True, check=False)
+    checks.that("what is nowhere", "module 'softgrain' has no attribute 'softDisk'" in wrong.stderr, wrong.stderr)
 
 
 def broken(checks, out):
@@ -97,6 +99,8 @@ def data_of_ones_own(checks):
                 ("lengths", ["1, 2 rows"], lambda: save_run(out, {"a": [1], "b": [1, 2]})),
                 ("nothing", ["no rows"], lambda: save_run(out, {})),
                 ("a unit of nothing", ["torc", "is no column"], lambda: save_run(out, {"a": [1]}, units={"torc": "N"})),
+                ("units of nothing", ["tork, torque", "are no columns"],
+                 lambda: save_run(out, {"a": [1]}, units={"torque": "N", "tork": "N"})),
                 ("what json cannot hold", ["json"], lambda: save_run(out, {"a": [1]}, thing=object())),
                 ("a folder", ["/proc/none"], lambda: save_run("/proc/none", {"a": [1]}))):
             checks.raises(what, InputError, words, work)

@@ -57,6 +57,8 @@ def figures_of_two_runs(checks, folder):
                 both.stderr)
     none = subprocess.run(["/usr/bin/python3", script, "."], cwd=folder, capture_output=True, text=True, check=False)
     checks.that("figures of nothing", none.returncode == 2 and "Traceback" not in none.stderr, none.stderr)
+    empty = subprocess.run(["/usr/bin/python3", script, "both"], cwd=folder, capture_output=True, text=True, check=False)
+    checks.that("figures of a folder without a csv", empty.returncode == 2 and "both holds no csv file" in empty.stderr, empty.stderr)
 
 
 def compaction_with_friction(checks):

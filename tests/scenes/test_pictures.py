@@ -239,6 +239,7 @@ def movies(checks):
             file.truncate(300)
         checks.raises("a damaged shot", InputError, [broken, "damaged"], lambda: movie(folder))
         checks.raises("an empty folder", InputError, ["no shots"], lambda: movie(os.path.join(folder, "none")))
+    checks.raises("no frames", InputError, ["the list of frames holds no shots"], lambda: movie([]))
 
 
 def mistakes(checks):
@@ -250,6 +251,7 @@ def mistakes(checks):
             ("a function's values", ["#0", "124"[:1]], {"field": lambda body: [1, 2]}),
             ("no numbers", ["complex"], {"field": 1j}),
             ("limits", ["(2, 1)", "(lowest, highest)"], {"limits": (2, 1)}),
+            ("limits of roots", ["(-1, 1)", "not below 0"], {"limits": (-1, 1), "scale": "root"}),
             ("scale", ["'cubic'", "'root'"], {"scale": "cubic"}),
             ("colormap", ["'jetsam'", "'viridis'"], {"colormap": "jetsam"}),
             ("width", ["width", "0"], {"width": 0}),

@@ -44,7 +44,7 @@ from PyQt5 import QtCore, QtGui, QtTest, QtWidgets  # noqa: E402
 from yade import O, FrictMat, qt  # noqa: E402
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from scene_testing import run_tests  # noqa: E402
+from scene_testing import Folder, run_tests  # noqa: E402
 from softgrain import Gl1_SoftGrain, NeoHookeanMat, SoftGrain, arrays, measures, softBox, softCloud, softDisc, softEngines, softPolygon  # noqa: E402
 
 WIDTH = 8e-3
@@ -171,7 +171,15 @@ def colours_are_those_of_the_field(checks):
     picture.take()
     checks.that("a range that is given", close(picture.colour(places[5]), (0.267, 0.005, 0.329)), picture.colour(places[5]))
     Gl1_SoftGrain.field = "nonsense"
-    picture.take()
+    with Folder() as folder, open(folder + "/said", "w+b") as file:
+        kept = os.dup(2)
+        os.dup2(file.fileno(), 2)
+        picture.take()
+        os.dup2(kept, 2)
+        os.close(kept)
+        with open(file.name, encoding="utf-8") as said:
+            text = said.read()
+    checks.that("an unknown field is said", all(word in text for word in ("'nonsense'", "'vonMises'", "or '' for")), text)
     checks.that("an unknown field: the colour of the shape", close(picture.colour(places[5]), (1, 0, 0)))
 
 

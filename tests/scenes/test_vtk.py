@@ -2,6 +2,7 @@
 """What SoftVTKRecorder writes, read back with VTK and compared with what the scene holds."""
 import glob
 import os
+import resource
 import subprocess
 import sys
 import types
@@ -287,6 +288,28 @@ def a_run_that_is_killed(checks):
             checks.that("its files are whole", all(read(os.path.join(folder, file)).GetFieldData().GetArray("TimeValue") for file in listed))
 
 
+def no_room(checks, folder):
+    """The system lets files grow to 2 kB only."""
+    squeezed(SoftVTKRecorder(fileName=folder + "/full-", iterPeriod=1))
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, limits[1]))
+    try:
+        checks.raises("no room", RuntimeError, ["/full-", "VTK could not write all of it"], lambda: O.run(1, wait=True))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+
+
+def its_own_fault(checks, folder):
+    from softgrain import vtk_recorder
+
+    squeezed(SoftVTKRecorder(fileName=folder + "/", iterPeriod=1))
+    record, vtk_recorder.record = vtk_recorder.record, None
+    try:
+        checks.raises("a fault of its own", RuntimeError, ["SoftVTKRecorder failed as printed above"], lambda: O.run(1, wait=True))
+    finally:
+        vtk_recorder.record = record
+
+
 def mistakes(checks):
     def says(what, words, **attributes):
         squeezed(SoftVTKRecorder(iterPeriod=1, **attributes))
@@ -301,6 +324,8 @@ def mistakes(checks):
         os.mkdir(folder + "/scene.pvd")
         says("a folder in the place of the list", ["fileName", "directory"], fileName=folder + "/")
         checks.that("nothing half-done is left", not glob.glob(folder + "/*.part*"), os.listdir(folder))
+        no_room(checks, folder)
+        its_own_fault(checks, folder)
         loaded = [name for name in sys.modules if name.startswith(("vtkmodules", "softgrain.vtk_"))]
         kept = {name: sys.modules.pop(name) for name in loaded}
         other = types.ModuleType("vtkmodules")

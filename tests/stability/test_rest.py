@@ -58,4 +58,5 @@ def heap(size):
 
 
 run_cases(*[(f"{name}, size {1e3 * size:g} mm", METHODS, make(size))
-            for name, make in (("stack of 3 squares", stack), ("heap of 6 discs", heap)) for size in (1e-2, 1e-3, 1e-4)])
+            for name, make in (("stack of 3 squares", stack), ("heap of 6 discs", heap)) for size in (1e-2, 1e-3, 1e-4)],
+          known=[("stack of 3 squares, size 0.1 mm", "implicit", "corners that stand on corners: no normal for the iterations to settle on")])
