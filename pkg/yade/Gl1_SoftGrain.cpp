@@ -78,18 +78,27 @@ namespace {
         gluTessEndPolygon(triangles);
     }
 
-    /// Tiles, cut off at the outline, which was filled with marks in the stencil; the marks are taken away.
-    void drawTiles(const GrainPicture& picture, const Vector2r& range, const Brush& brush)
+    /// Tiles, each so many times its size.
+    void drawTiles(const GrainPicture& picture, const Vector2r& range, const Brush& brush, Real size)
     {
-        glStencilFunc(GL_EQUAL, 1, 1);
-        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
         glBegin(GL_QUADS);
         for (size_t p = 0; p < picture.tiles.size(); ++p) {
             brush.colour(coloured(picture.values[p], range));
             for (const Place& corner : picture.tiles[p])
-                Brush::place(corner);
+                Brush::place(picture.points[p] + size * (corner - picture.points[p]));
         }
         glEnd();
+    }
+
+    /// Tiles, cut off at the outline, which was filled with marks in the stencil; the marks are taken away.
+    void drawField(const GrainPicture& picture, const Vector2r& range, const Brush& brush)
+    {
+        glStencilFunc(GL_EQUAL, 1, 1);
+        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        glPolygonOffset(1.5, 1.5);
+        drawTiles(picture, range, brush, 1.5); // below, where tiles leave gaps
+        glPolygonOffset(1, 1);
+        drawTiles(picture, range, brush, 1);
         glColorMask(false, false, false, false);
         glStencilOp(GL_ZERO, GL_ZERO, GL_ZERO);
         fill(picture.outline);
@@ -110,8 +119,7 @@ namespace {
         const Real sum = std::accumulate(picture.values.begin(), picture.values.end(), 0.0);
         brush.colour(coloured(sum / Real(picture.values.size()), range));
         fill(picture.outline);
-        glPolygonOffset(1, 1);
-        drawTiles(picture, range, brush);
+        drawField(picture, range, brush);
         glDisable(GL_STENCIL_TEST);
     }
 
