@@ -31,11 +31,21 @@ install_missing() {
     rm -f "$log"
 }
 
+# Of ninja's output on a terminal its count of what is built.
+count_built() {
+    if [ -t 2 ]; then
+        sed -un 's/^\(\[[0-9]*\/[0-9]*\]\).*/\1/p' | while read -r built; do printf '\rsoftgrain: %s ' "$built" >&2; done
+        printf '\r\033[K' >&2
+    else
+        cat >/dev/null
+    fi
+}
+
 build_plugin() {
     local log=$build/build.log
     mkdir -p "$build"
     [ -f "$build/build.ninja" ] || printf 'softgrain: building in %s (some minutes the first time)\n' "$build" >&2
     { cmake -S "$root" -B "$build" -G Ninja ${SOFTGRAIN_CMAKE_OPTIONS:-} && cmake --build "$build" --target "${@:-all}"; } \
-        >"$log" 2>&1 </dev/null || { tail -n 40 "$log" >&2; die "the build failed; all of its output is in $log."; }
+        2>&1 </dev/null | tee "$log" | count_built || { tail -n 40 "$log" >&2; die "the build failed; all of its output is in $log."; }
     export PYTHONPATH=$build/py${PYTHONPATH:+:$PYTHONPATH}
 }
