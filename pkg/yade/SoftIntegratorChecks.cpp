@@ -99,8 +99,9 @@ void SoftIntegrator::refuseStrangers(Body::id_t id1, Body::id_t id2) const
     throw std::runtime_error(
         "bodies #" + std::to_string(id1) + " and #" + std::to_string(id2) + ", a " + one->shape->getClassName() + " and a "
         + two->shape->getClassName()
-        + ", are rigid, at least one is free to move, and no functor knows their contact; give the functors of one of "
-          "YADE's laws, as in softEngines(functors=[...]), or take one of the two out by a mask.");
+        + ", are rigid, at least one is free to move, and no functor knows their contact; give functors that do, as "
+          "softEngines(functors=rigidContacts()) does for spheres and what they touch, or take one of the two out by a "
+          "mask.");
 }
 
 /// Bodies that no functor brings into contact with soft grains.
