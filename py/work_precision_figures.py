@@ -57,7 +57,7 @@ def _knobs(measured, sweeps, base, path):
                                    (axes[1], _found(measured.packing, packing), "stress")):
             points = [("" if knobs == base else f"{knobs[knob]:g}", errors["cpu_s"], *_size(errors[error]))
                       for knobs, errors in found]
-            _line(axis, name, points, index, [])
+            _line(axis, name, points, index)
     axes[0].set(xlabel=ON_GRAIN, ylabel="error of the force, rms [-]")
     axes[1].set(xlabel=IN_PACKING, ylabel="difference of the stress [-]")
     for axis, errors, error in ((axes[0], measured.grain(base), "force"), (axes[1], measured.packing(base), "stress")):
@@ -103,10 +103,10 @@ def _found(measure, settings):
 
 def _draw_lines(axis, lines):
     """lines: name -> list of (label, CPU time, error, spread); rings mark the Pareto front of all, where errors count
-    with their spread."""
+    with their spread. Of points close together the first has its label."""
     labelled = []
     for index, (name, points) in enumerate(lines.items()):
-        _line(axis, name, points, index, labelled)
+        _line(axis, name, [(_label(point, labelled), *point[1:]) for point in points], index)
     best = front([(cost, error + spread, error) for points in lines.values() for _, cost, error, spread in points
                   if not math.isnan(spread)])
     axis.plot([cost for cost, *_ in best], [max(error, FLOOR) for *_, error in best], "o:", color="0.25", markersize=13,
@@ -114,18 +114,24 @@ def _draw_lines(axis, lines):
     axis.set(xscale="log", yscale="log")
 
 
-def _line(axis, name, points, index, labelled):
-    """Points have labels where they are apart from `labelled`, the places in decades that have one."""
+def _label(point, labelled):
+    """Its own, or none near one of `labelled`, the places in decades of points that have theirs."""
+    label, cost, error, _ = point
+    place = math.log10(cost), math.log10(max(error, FLOOR))
+    if any(math.dist(place, other) <= APART for other in labelled):
+        return ""
+    labelled.append(place)
+    return label
+
+
+def _line(axis, name, points, index):
     colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
     costs, errors = [cost for _, cost, _, _ in points], [max(error, FLOOR) for _, _, error, _ in points]
     axis.plot(costs, errors, "-" if index < len(COLOURS) else "--", marker=marker, color=colour, label=name)
     for (label, *_, spread), cost, error in zip(points, costs, errors):
         if spread > 0:
             axis.plot([cost, cost], [max(error - spread, error / 5), error + spread], color=colour, linewidth=1)
-        place = math.log10(cost), math.log10(error)
-        if all(math.dist(place, other) > APART for other in labelled):
-            axis.annotate(label, (cost, error), BESIDE[index % len(BESIDE)], textcoords="offset points", fontsize=8, color=colour)
-            labelled.append(place)
+        axis.annotate(label, (cost, error), BESIDE[index % len(BESIDE)], textcoords="offset points", fontsize=8, color=colour)
 
 
 def _one_legend(figure, axes):
