@@ -93,10 +93,12 @@ def run_example(folder, example, *options, threads=None):
                           check=False)
 
 
-def start_example(folder, example, *options):
-    """Starts an example and does not wait."""
-    return subprocess.Popen(command(example, *options), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                            text=True)
+def run_signalled(folder, moments, example, *options):
+    """The same, with signals of its own at moments, (function, call, signal) each: signalling.py."""
+    told = ",".join(f"{function}:{call}:{signal.name}" for function, call, signal in moments)
+    script, *rest = command(example, *options)[3:]
+    return subprocess.run(["yade", "-n", "-x", os.path.join(HERE, "signalling.py"), told, script, *rest], cwd=folder,
+                          capture_output=True, text=True, check=False)
 
 
 def said(process):

@@ -194,13 +194,13 @@ def run_in_the_background_equals_steps(checks):
     while O.iter == 0:
         time.sleep(0.01)
     reads = 0
-    while O.iter < 1000 and reads < 10000:
+    while O.iter < 1000:
         soft = measures.softIntegrator()
         soft.contacts(), soft.solidArea(), soft.kineticEnergy(), [arrays.points(b) for b in measures.softBodies()]
         reads += 1
     O.pause()
     O.wait()
-    checks.that("can be read while it runs", O.iter >= 1000 and reads > 0, (O.iter, reads))
+    checks.that("can be read while it runs", reads > 0)
     stopped = O.iter
     O.stopAtIter = stopped + 20
     O.run()
