@@ -87,7 +87,7 @@ template <int Dim> void take_off(Grain<Dim>& grain)
 {
     grain.flight = flight_from<Dim>(grain, (grain.motion.position - grain.origin) / grain.radius);
     grain.motion.kinetic = kinetic(grain);
-    grain.elastic_energy();
+    grain.elastic_energy(); // which the grain remembers
 }
 
 template <int Dim> double accelerate(Grain<Dim>& grain, double dt, const Vec<Dim>& gravity, double damping)
